@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Measures time against accuracy on four scenarios with the published raster, and on two of them with
 # three sensors whose beams lie otherwise, into out/frontier, and copies the raster's charts to where
-# docs/frontier.md shows them: draw_frontiers.sh [OPTION OF railcast-analyze frontier...]. The options
+# docs/results/frontier_scenes.md shows them: draw_frontiers.sh [OPTION OF railcast-analyze frontier...]. The options
 # are for the raster. What the same program has measured already is left as it is. Takes half an hour;
 # for timings worth quoting nothing else may run on the machine. Called by measure_results.py, which
 # makes tables of it.

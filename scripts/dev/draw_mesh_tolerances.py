@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Charts what simplifying five meshes of the shared data set gains, and two of them made as dense as
-a scan, for docs/detail.md.
+a scan, for docs/results/detail.md.
 
     scripts/dev/draw_mesh_tolerances.py BUILD PICTURE
 

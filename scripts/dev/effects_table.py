@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Measures what each effect changes in each shipped situation, for docs/effects_table.md and .csv.
+"""Measures what each effect changes in each shipped situation, for docs/results/effects_table.md and .csv.
 
     scripts/dev/effects_table.py BUILD [--results FILE] [--frames N] [NAME...]
 
@@ -19,8 +19,8 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SITUATIONS = ROOT / "scenarios" / "situations"
-PAGE = ROOT / "docs" / "effects_table.md"
-FIGURES = ROOT / "docs" / "effects_table.csv"
+PAGE = ROOT / "docs" / "results" / "effects_table.md"
+FIGURES = ROOT / "docs" / "results" / "effects_table.csv"
 SENSORS = {"vir2rail": 6, "vlp16": 36, "pandar64": 96, "rosette": 9}
 # The first rung that has an effect which `footprint` lacks.
 RUNGS = {"threshold": "plausibility", "rain": "plausibility", "snow": "plausibility", "noise": "plausibility",
@@ -255,10 +255,10 @@ def page_of(results):
         cost = f"{costs[effect]['instructions']:,.0f}" if effect in costs else ""
         if cost and costs[effect]["at"] != [name, sensor]:
             cost += f" in {', '.join(costs[effect]['at'])}"
-        where = "nowhere" if is_idle else f"[{name}](../scenarios/situations/{name}.json), {sensor}"
+        where = "nowhere" if is_idle else f"[{name}](../../scenarios/situations/{name}.json), {sensor}"
         heading = next((heading for heading in headings if effect in heading.split()), "")
         anchor = "#" + heading.replace(" ", "-") if heading else ""
-        lines.append(f"| [`{effect}`](effects.md{anchor}) | {where} | {with_spread(cell['outcome'], cell['outcome_of_frames'])} | "
+        lines.append(f"| [`{effect}`](../effects.md{anchor}) | {where} | {with_spread(cell['outcome'], cell['outcome_of_frames'])} | "
                      f"{with_spread(cell['echoes'], cell['echoes_of_frames'])} | {moved} | {dimmed} | {share(median)} | {cost} |")
     num_shipped = len(list(SITUATIONS.glob("*.json"))) - 1
     if len(names) < num_shipped:
@@ -267,7 +267,7 @@ def page_of(results):
               "| key | situation | firings that change without it % |", "|---|---|---|"]
     for key, value in results.get("keys", {}).items():
         situation = KEYS[key][0]
-        lines.append(f"| `{key}` | [{situation}](../scenarios/situations/{situation}.json) | {share(value)} |")
+        lines.append(f"| `{key}` | [{situation}](../../scenarios/situations/{situation}.json) | {share(value)} |")
     lines += ["", "## By sensor", "", "Firings of which anything changes, in percent: the median over the situations and "
               "the most.", "", "| effect | " + " | ".join(f"{sensor}: median, most" for sensor in SENSORS) + " |",
               "|---|" + "---|" * len(SENSORS)]

@@ -1,4 +1,4 @@
-"""How the time of a frame grows: the charts and tables of docs/performance.md, for measure_results.py.
+"""How the time of a frame grows: the charts and tables of docs/results/performance.md, for measure_results.py.
 
 Each chart varies one thing of the demo (scripts/dev/growth_scenarios.py), in turns in one process (railcast-scaling) or
 run by run (railcast-generate sequence), and keeps the least of the times; on one thread, of the times that the
@@ -270,7 +270,7 @@ def columns_of(name):
 
 
 def table(name, lines):
-    """The lines of a chart as a table of docs/results.json."""
+    """The lines of a chart as a table of docs/results/results.json."""
     columns, rows = columns_of(name), []
     for line in lines:
         values = dict(line)

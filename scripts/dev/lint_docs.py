@@ -18,6 +18,7 @@ import textwrap
 import urllib.parse
 
 START = "docs/index.md"
+RESULTS = "docs/results"  # What was measured.
 SITE = ("docs", "examples", "scenarios", "scripts")  # The folders whose pages and files the site has.
 NOT_OURS = ("build", "out", ".git")  # Folders whose pages are not part of the project.
 
@@ -101,11 +102,12 @@ def lint_named_files(root, pages):
 
 
 def lint_start_page(root, pages):
-    """Yields the pages of docs that the start page has no link to."""
+    """Yields the pages of docs and of its results that the start page has no link to."""
     start = root / START
+    folders = (start.parent, root / RESULTS)
     linked = {target for _, _, target, _ in targets_of(start, pages[start])} if start in pages else set()
     for path in pages:
-        if path.parent == start.parent and path != start and path not in linked:
+        if path.parent in folders and path != start and path not in linked:
             yield f"{path.relative_to(root).as_posix()}:1: {START} has a link to every page of docs"
 
 

@@ -194,7 +194,7 @@ def detection(range_min_m, range_max_m, range_at_10_percent_m, noise_sigma0_m, d
     }
 
 
-# Measured on a recording of each sensor (docs/validation.md). The pointing jitter of all is that of
+# Measured on a recording of each sensor (docs/results/validation.md). The pointing jitter of all is that of
 # VLS-128, the only one that was outdoors.
 VLP16 = [
     {"noise_sigma0_m": 0.008, "noise_sigma1": 0.0, "dropout_probability": 0.0002,

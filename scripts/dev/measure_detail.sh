@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Compares a scene that is coarser far away with full detail, for docs/detail.md: echoes by range with three
+# Compares a scene that is coarser far away with full detail, for docs/results/detail.md: echoes by range with three
 # sensors on two rungs, with plants and without, then times on three scenarios, then time and memory of a first
 # frame. Needs a release build and GNU time; takes some 20 minutes. Nothing else should run meanwhile.
 #

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""Studies the brake scenarios and all situations on four sensors, and writes the table of docs/detection_table.md.
+"""Studies the brake scenarios and all situations on four sensors, and writes docs/results/detection_table.md.
 
     scripts/dev/measure_detection.py BUILD FOLDER [--check] [NAME...]
 
 Each is a study of 64 approaches with the rung footprint, in the situation's own weather; the brake scenarios in clear
 air, heavy rain and thick fog. What stands in the way is moved by up to 2.5 m along the track, so that scan lines fall
 elsewhere on it each time. FOLDER keeps the studies: the same command continues after an interruption. --check fails
-where a study's figures differ from docs/detection_table.csv; without it, rows of the named studies are replaced there.
+where a study's figures differ from detection_table.csv; without it, rows of the named studies are replaced there.
 No figure is a time, so that the machine may be busy. All take some hours on two cores.
 """
 
@@ -22,8 +22,8 @@ from measure_situations import SITUATIONS
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENARIOS = ROOT / "scenarios"
-PAGE = ROOT / "docs" / "detection_table.md"
-FIGURES = ROOT / "docs" / "detection_table.csv"
+PAGE = ROOT / "docs" / "results" / "detection_table.md"
+FIGURES = ROOT / "docs" / "results" / "detection_table.csv"
 SENSORS = {"vir2rail": "raster", "pandar64": "Pandar64", "vls128": "VLS-128", "rosette": "rosette"}
 NUM_APPROACHES = 64
 SHIFT_M = (-2.5, 2.5)

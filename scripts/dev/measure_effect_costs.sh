@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Counts the cost of each rung and each effect, for docs/performance.md and the table of effects
+# Counts the cost of each rung and each effect, for docs/results/performance.md and the table of effects
 # (core/detect/detector/effect_table.h): instructions per firing of Simulator::Scan, without those for making
 # the scene, on frame 0 of scenarios/open_line.json in heavy rain (so that every effect has work)
 # with one thread; then the savings without each effect of the rung footprint; then what the sensor's

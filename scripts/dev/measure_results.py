@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures the figures of the pages into docs/results.json, and puts them into the pages (scripts/dev/results.py).
+"""Measures the figures of the pages into docs/results/results.json, and puts them into the pages (results.py beside it).
 
     measure_results.py [PART...] [--build build/release] [--list] [--again]
 
@@ -245,7 +245,7 @@ def merged(texts):
 
 
 def regimes(report):
-    """The rows of docs/where_methods_fail.md in a report of stability_test; those of several sensors are one."""
+    """The rows of where_methods_fail.md in a report of stability_test; those of several sensors are one."""
     found = {}
     for suite in json.loads(report)["testsuites"]:
         for test in suite["testsuite"]:

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Compares the shares of points by class on an open line, in a station and in a yard with those of
-real railway clouds, as docs/accuracy.md has them; prints the table.
+real railway clouds, as docs/results/accuracy.md has them; prints the table.
 
 usage: point_shares.py BUILD_DIR
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes a release of the present commit, or says what stands against it: release.sh [--check].
 #
-# Checks that nothing is uncommitted, that CHANGELOG.md, CITATION.cff and docs/results.json are of the version, and that
+# Checks that nothing is uncommitted, that CHANGELOG.md, CITATION.cff and docs/results/results.json are of the version, and that
 # what the release before wrote is kept in tests/releases; runs all tests; makes packages, wheel, samples and site
 # in out/release, with their sums; and sets the tag. --check stops after the checks, which take a second.
 set -euo pipefail
@@ -25,7 +25,7 @@ before=$(sed -nE 's/^## ([0-9.]+)$/\1/p' CHANGELOG.md | grep -vxF "$version" | h
 [[ -d "tests/releases/$before" ]] ||
   fault "tests/releases lacks $before: check that release out, build it, and run scripts/dev/keep_release.py BUILD"
 scripts/dev/results.py check >/dev/null 2>&1 ||
-  fault "the pages do not have the figures of docs/results.json: run scripts/dev/results.py"
+  fault "the pages do not have the figures of docs/results/results.json: run scripts/dev/results.py"
 if ((faults > 0)); then exit 1; fi
 echo "nothing stands against releasing $version"
 if [[ "${1:-}" == --check ]]; then exit; fi

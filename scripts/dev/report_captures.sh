@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the statistics of four real sensors' captures in out/captures (see docs/validation.md).
+# Makes the statistics of four real sensors' captures in out/captures (see docs/results/validation.md).
 # Usage: scripts/dev/report_captures.sh CAPTURES [BUILD]
 #   CAPTURES  folder with vlp16_dual.pcap, vlp32c_single.pcap, pandar64.pcap and vls128_single.pcap
 set -euo pipefail

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds the figures of the pages against docs/results.json, which scripts/dev/measure_results.py writes.
+"""Holds the figures of the pages against docs/results/results.json, which scripts/dev/measure_results.py writes.
 
     results.py [check] [ROOT]   prints a line for each place where a page and the file differ; exits 1 if there is any
     results.py fill [ROOT]      puts the file's figures into the pages
@@ -22,7 +22,7 @@ import pathlib
 import re
 import sys
 
-FILE = "docs/results.json"
+FILE = "docs/results/results.json"
 NUMBER = re.compile(r"[-+]?\d[\d,]*(?:\.\d+)?")
 TABLE = re.compile(r"<!-- results: (\S+?)( all)? -->\n(?:\n)?((?:\|.*\n)+)")
 INLINE = re.compile(r"([-+]?\d[\d,]*(?:\.\d+)?)<!-- r:\s+(\S+)\s+;\s+([^>]*?)\s+;\s+([^;>]*?)\s+-->")

@@ -21,7 +21,7 @@ def planted(text, run):
     """What `run` gives for a tree of which README.md has this text."""
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
-        (root / "docs").mkdir()
+        (root / "docs/results").mkdir(parents=True)
         (root / "scenarios").mkdir()
         (root / "README.md").write_text(text, encoding="utf-8")
         (root / results.FILE).write_text(json.dumps({
@@ -46,13 +46,13 @@ class Check(unittest.TestCase):
     def test_a_table_has_the_files_figures_with_as_many_digits_as_it_shows(self):
         self.assertEqual(faults_of(HEAD + "| `a` | 11.4 | 4.91 | x |\n| c | 1,210 | 2 to 3 | y |\n"), [])
         self.assertEqual(faults_of(HEAD + "| `a` | 11.5 | 4.91 | x |\n"),
-                         ["README.md:4: figures are those of docs/results.json "
+                         ["README.md:4: figures are those of docs/results/results.json "
                           "(| `a` | 11.5 | 4.91 | x | instead of | `a` | 11.4 | 4.91 | x |)"])
 
     def test_a_number_in_a_sentence_is_that_of_its_cell(self):
         self.assertEqual(faults_of("takes 11<!-- r: p/t ; a ; time --> times\n"), [])
         self.assertEqual(faults_of("takes 12<!-- r: p/t ; a ; time --> times\n"),
-                         ["README.md:1: figures are those of docs/results.json "
+                         ["README.md:1: figures are those of docs/results/results.json "
                           "(takes 12<!-- r: p/t ; a ; time --> times instead of takes 11<!-- r: p/t ; a ; time --> times)"])
 
     def test_a_page_says_where_and_when_a_part_was_measured(self):

@@ -24,7 +24,7 @@ sys.path[:0] = [str(ROOT / "scripts" / "dev"), str(ROOT / "scripts")]
 import small_runs  # noqa: E402 (found through the line above)
 
 SKIPPED = 77  # For ctest.
-PAGE = ROOT / "docs" / "makers_and_takers.md"
+PAGE = ROOT / "docs" / "results" / "makers_and_takers.md"
 BEGIN, END = "<!-- table -->\n", "<!-- end of table -->\n"
 
 # (name in the table, what is given to the takers, the runs that make it)

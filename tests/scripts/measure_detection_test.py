@@ -1,4 +1,4 @@
-"""docs/detection_table.md has the figures of docs/detection_table.csv, and bold is what the figures say is in time."""
+"""docs/results/detection_table.md has the figures of the .csv beside it, and bold is what the figures say is in time."""
 
 import pathlib
 import sys

@@ -234,7 +234,7 @@ def page_faults(page, build, stand_ins, used):
 
 
 def pages():
-    manual = sorted(str(path.relative_to(ROOT)) for path in (ROOT / "docs").glob("*.md"))
+    manual = sorted(str(path.relative_to(ROOT)) for path in (ROOT / "docs").rglob("*.md") if path.parent.name != "notes")
     return ["README.md", "examples/README.md", "scenarios/README.md", *manual]
 
 

@@ -64,10 +64,10 @@ class Release(unittest.TestCase):
         self.assertTrue(fault.startswith("tests/releases lacks 0.2.0: "), fault)
 
     def test_figures_that_are_not_the_file_s(self):
-        (self.tree / "docs/results.json").write_text("{}\n", "utf-8")
+        (self.tree / "docs/results/results.json").write_text("{}\n", "utf-8")
         self.commit()
         fault, = self.faults()
-        self.assertIn("docs/results.json", fault)
+        self.assertIn("docs/results/results.json", fault)
 
 
 if __name__ == "__main__":
