@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks the links of the Markdown pages.
+"""Checks the links and the length of the Markdown pages.
 
 Usage: lint_docs.py [ROOT]
 
@@ -7,7 +7,8 @@ Prints one line per fault, "file:line: rule (what was found)", and exits 1 if th
 files or headings that do not exist, links of the site's pages to files that scripts/make_site.sh does
 not put into it, names of files that do not exist, pages of docs that docs/index.md has no link to,
 pictures of docs/images that no page shows or that lack words of their source, scripts of figures that
-do not exist, and quotes that are not in the file that they are from.
+do not exist, quotes that are not in the file that they are from, and a manual of more words than
+MOST_WORDS permits. Prints how many words the manual has.
 """
 
 import html
@@ -19,6 +20,9 @@ import urllib.parse
 
 START = "docs/index.md"
 RESULTS = "docs/results"  # What was measured.
+GENERATED = ("docs/reference.md", "docs/records.md", "docs/remarks.md")  # From the descriptions of keys.
+# What a user reads: README and docs, without the generated reference and the results. The number only goes down.
+MOST_WORDS = {"the manual": 93_000}
 SITE = ("docs", "examples", "scenarios", "scripts")  # The folders whose pages and files the site has.
 NOT_OURS = ("build", "out", ".git")  # Folders whose pages are not part of the project.
 
@@ -155,11 +159,26 @@ def lint_quotes(root, pages):
                 yield f"{path.relative_to(root).as_posix()}:{line}: a quote stands in its file ({name})"
 
 
+def words_of_manual(root):
+    """How many words README and the pages of docs have that are neither generated nor results."""
+    pages = [root / "README.md", *(root / "docs").rglob("*.md")]
+    return sum(len(page.read_text(encoding="utf-8").split()) for page in pages
+               if page.exists() and page.parent != root / RESULTS and page.relative_to(root).as_posix() not in GENERATED)
+
+
+def lint_words(root):
+    """Yields the manual if it has more words than it may."""
+    words, most = words_of_manual(root), MOST_WORDS["the manual"]
+    if words > most:
+        yield f"docs:1: the manual has at most {most} words ({words})"
+
+
 def lint(root):
     """Every fault of the pages in the tree at `root`."""
     pages = read_pages(root)
     return [*lint_links(root, pages), *lint_named_files(root, pages), *lint_start_page(root, pages),
-            *lint_pictures(root, pages), *lint_drawings(root), *lint_figures(root, pages), *lint_quotes(root, pages)]
+            *lint_pictures(root, pages), *lint_drawings(root), *lint_figures(root, pages), *lint_quotes(root, pages),
+            *lint_words(root)]
 
 
 def main(arguments):
@@ -168,6 +187,7 @@ def main(arguments):
     faults = lint(root)
     for fault in faults:
         print(fault, file=sys.stderr)
+    print(f"{words_of_manual(root)} words in the manual")
     return 1 if faults else 0
 
 

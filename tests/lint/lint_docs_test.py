@@ -4,6 +4,7 @@ import pathlib
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts/dev"))
@@ -64,6 +65,19 @@ class Pages(unittest.TestCase):
         self.assertEqual(faults_of({"docs/index.md": "[a](a.md)", "docs/a.md": "[b](b.md)",
                                     "docs/b.md": "", "c.md": ""}),
                          ["docs/b.md:1: docs/index.md has a link to every page of docs"])
+
+    def test_the_start_page_has_a_link_to_every_page_of_results(self):
+        self.assertEqual(faults_of({"docs/index.md": "[a](results/a.md)", "docs/results/a.md": "",
+                                    "docs/results/b.md": "", "docs/notes/c.md": ""}),
+                         ["docs/results/b.md:1: docs/index.md has a link to every page of docs"])
+
+    def test_the_manual_has_no_more_words_than_it_may(self):
+        files = {"README.md": "one two", "docs/index.md": "[a](results/a.md) [b](reference.md)", "docs/notes/c.md": "three",
+                 "docs/results/a.md": "not counted", "docs/reference.md": "not counted", "CONTRIBUTING.md": "not counted"}
+        with unittest.mock.patch.dict(lint_docs.MOST_WORDS, {"the manual": 5}):
+            self.assertEqual(faults_of(files), [])
+        with unittest.mock.patch.dict(lint_docs.MOST_WORDS, {"the manual": 4}):
+            self.assertEqual(faults_of(files), ["docs:1: the manual has at most 4 words (5)"])
 
     def test_a_page_shows_every_picture(self):
         self.assertEqual(faults_of({"a.md": "![x](docs/images/x.png)", "docs/images/x.png": "",
