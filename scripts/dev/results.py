@@ -4,16 +4,18 @@
     results.py [check] [ROOT]   prints a line for each place where a page and the file differ; exits 1 if there is any
     results.py fill [ROOT]      puts the file's figures into the pages
 
-A page takes figures in three ways:
+A page takes figures in these ways:
 
     <!-- results: PART/TABLE -->       the table below has the file's figures in the columns and rows that it names.
                                        With "all" after the table's name it has all of the file's rows.
+    <!-- results: PART/TABLE whole --> the table below is the file's, with its heading; fill writes all of it
     6.7<!-- r: PART/TABLE ; ROW ; COLUMN -->   the number before the mark is a cell of the file; rows with several
                                                keys are named by all of them, divided by ;
+                                               ROW may be "least" or "most": the column's least or greatest number
     <!-- made: PART... -->             the line below says where and when these parts were measured
 
 The page decides how many digits it shows: the file's figure is rounded to as many. A column that the file's table
-does not have is the page's own, and holds no figures.
+does not have is the page's own, and holds no figures. A whole table shows three digits of numbers with a point.
 """
 
 import decimal
@@ -25,6 +27,7 @@ import sys
 FILE = "docs/results/results.json"
 NUMBER = re.compile(r"[-+]?\d[\d,]*(?:\.\d+)?")
 TABLE = re.compile(r"<!-- results: (\S+?)( all)? -->\n(?:\n)?((?:\|.*\n)+)")
+WHOLE = re.compile(r"<!-- results: (\S+) whole -->\n(?:\|.*\n)*")
 INLINE = re.compile(r"([-+]?\d[\d,]*(?:\.\d+)?)<!-- r:\s+(\S+)\s+;\s+([^>]*?)\s+;\s+([^;>]*?)\s+-->")
 MADE = re.compile(r"<!-- made: (\S+(?: \S+)*) -->\n(?:\*.*\*\n)?")
 MARK = re.compile(r"<!-- (?:results|r|made):\s")
@@ -81,6 +84,32 @@ def column_of(table, heading):
     if plain(heading) not in headings:
         raise Fault(f"the file has the column ({heading})")
     return headings.index(plain(heading))
+
+
+def figure_of(table, keys, heading):
+    """A cell of the file, or the least or greatest number of a column."""
+    column = column_of(table, heading)
+    if keys not in (["least"], ["most"]):
+        return row_of(table, keys)[column]
+    numbers = [row[column] for row in table["rows"] if NUMBER.fullmatch(row[column])]
+    if not numbers:
+        raise Fault(f"the file's column has numbers ({heading})")
+    return {"least": min, "most": max}[keys[0]](numbers, key=lambda cell: float(cell.replace(",", "")))
+
+
+def in_three_digits(cell):
+    """A number with a point in three digits, or fewer if it has fewer; anything else as it is."""
+    if "." not in cell or not NUMBER.fullmatch(cell):
+        return cell
+    places = max(0, 2 - decimal.Decimal(cell.replace(",", "")).adjusted())
+    return rounded(cell, "." + places * "0")
+
+
+def whole_table(table):
+    """The lines of the file's table, with its heading."""
+    lines = [table["columns"], *([in_three_digits(cell) for cell in row] for row in table["rows"])]
+    heading, *rows = ["| " + " | ".join(cells) + " |" for cells in lines]
+    return [heading, "|" + "---|" * len(table["columns"]), *rows]
 
 
 def table_as_measured(results, name, is_whole, lines):
@@ -140,13 +169,16 @@ def filled(text, results, complain):
 
     def inline(match):
         keys = [plain(each) for each in match[3].split(";")]
-        found = table_of(results, match[2])
-        figure = row_of(found, keys)[column_of(found, match[4])]
+        figure = figure_of(table_of(results, match[2]), keys, match[4])
         if not NUMBER.fullmatch(figure):
             raise Fault(f"the file's cell is a number ({figure})")
         return rounded(figure, match[1]) + match[0][len(match[1]):]
 
+    def whole(match):
+        return "\n".join([f"<!-- results: {match[1]} whole -->", *whole_table(table_of(results, match[1])), ""])
+
     text = replaced(TABLE, table, text)
+    text = replaced(WHOLE, whole, text)
     text = replaced(INLINE, inline, text)
     return replaced(MADE, lambda match: f"<!-- made: {match[1]} -->\n{made_line(results, match[1].split())}\n", text)
 
@@ -161,7 +193,7 @@ def lint(root):
     for page in pages_of(root):
         text, name, faults = page.read_text(encoding="utf-8"), page.relative_to(root).as_posix(), []
         new = filled(text, results, lambda place, rule: faults.append((text.count("\n", 0, place) + 1, rule)))
-        read = sum(len(pattern.findall(text)) for pattern in (TABLE, INLINE, MADE))
+        read = sum(len(pattern.findall(text)) for pattern in (TABLE, WHOLE, INLINE, MADE))
         if read != len(MARK.findall(text)):
             faults.append((1, f"every mark stands at a table, after a number or above a line "
                               f"({len(MARK.findall(text)) - read} do not)"))

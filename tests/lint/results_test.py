@@ -55,6 +55,10 @@ class Check(unittest.TestCase):
                          ["README.md:1: figures are those of docs/results/results.json "
                           "(takes 12<!-- r: p/t ; a ; time --> times instead of takes 11<!-- r: p/t ; a ; time --> times)"])
 
+    def test_a_sentence_names_the_least_and_the_most_of_a_column(self):
+        self.assertEqual(faults_of("1.05<!-- r: p/t ; least ; time --> to 1,210<!-- r: p/t ; most ; time --> s\n"), [])
+        self.assertEqual(len(faults_of("1.06<!-- r: p/t ; least ; time -->\n")), 1)
+
     def test_a_page_says_where_and_when_a_part_was_measured(self):
         line = "*2 cores of X; 2026-01-02; revision abc; nothing else ran.*"
         self.assertEqual(faults_of(f"<!-- made: p -->\n{line}\n"), [])
@@ -84,6 +88,14 @@ class Fill(unittest.TestCase):
         text = "<!-- results: p/t all -->\n| row | error % |\n|---|---|\n| gone | 1 |\n"
         self.assertEqual(filled(text).splitlines()[3:], ["| `a` | 4.91 |", "| `b` | - |", "| c | 2 to 3 |"])
         self.assertEqual(faults_of(filled(text)), [])
+
+    def test_a_whole_table_is_written_with_its_heading(self):
+        whole = ("<!-- results: p/t whole -->\n| row | time | error % |\n|---|---|---|\n| `a` | 11.4 | 4.91 |\n"
+                 "| `b` | 1.05 | - |\n| c | 1,210 | 2 to 3 |\n")
+        self.assertEqual(filled("<!-- results: p/t whole -->\n\nx\n"), whole + "\nx\n")
+        self.assertEqual(filled("<!-- results: p/t whole -->\n| old |\n|---|\n| 1 |\n"), whole)
+        self.assertEqual(faults_of(whole), [])
+        self.assertEqual(len(faults_of("<!-- results: p/t whole -->\n")), 1)
 
     def test_digits_and_units_stay_those_of_the_page(self):
         self.assertIn("| `a` | 11.4 | 4.91 | x |", filled(HEAD + "| `a` | 99.0 | | x |\n"))
