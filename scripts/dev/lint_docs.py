@@ -106,13 +106,16 @@ def lint_named_files(root, pages):
 
 
 def lint_start_page(root, pages):
-    """Yields the pages of docs and of its results that the start page has no link to."""
+    """Yields the pages of docs that the start page has no link to, and the results that no page has a link to."""
     start = root / START
-    folders = (start.parent, root / RESULTS)
     linked = {target for _, _, target, _ in targets_of(start, pages[start])} if start in pages else set()
+    linked_anywhere = {target for path, page in pages.items()
+                       for _, _, target, _ in targets_of(path, page) if target != path}
     for path in pages:
-        if path.parent in folders and path != start and path not in linked:
+        if path.parent == start.parent and path != start and path not in linked:
             yield f"{path.relative_to(root).as_posix()}:1: {START} has a link to every page of docs"
+        elif path.parent == root / RESULTS and path not in linked_anywhere:
+            yield f"{path.relative_to(root).as_posix()}:1: a page has a link to every page of results"
 
 
 def lint_pictures(root, pages):
@@ -163,7 +166,8 @@ def words_of_manual(root):
     """How many words README and the pages of docs have that are neither generated nor results."""
     pages = [root / "README.md", *(root / "docs").rglob("*.md")]
     return sum(len(page.read_text(encoding="utf-8").split()) for page in pages
-               if page.exists() and page.parent != root / RESULTS and page.relative_to(root).as_posix() not in GENERATED)
+               if page.exists() and page.parent != root / RESULTS
+               and page.relative_to(root).as_posix() not in GENERATED)
 
 
 def lint_words(root):
