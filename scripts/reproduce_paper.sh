@@ -3,7 +3,7 @@
 # on one page, OUT/reproduction.md, with its pictures in OUT/images:
 #
 #   reproduce_paper.sh OUT          in some minutes, with few scans and frames
-#   reproduce_paper.sh --full OUT   with as many as the figures in docs/published.md were made with
+#   reproduce_paper.sh --full OUT   with as many as the figures in docs/results/published.md were made with
 #
 # Installs missing packages and builds what it needs. Timings need an otherwise idle machine.
 set -euo pipefail
@@ -67,7 +67,7 @@ scripts/dev/draw_weather.sh "$out" > "$runs/log.txt"
 # Reproduction of the published evaluation
 
 Made by \`scripts/reproduce_paper.sh\` with $(build/release/generator/railcast-generate --version).
-docs/published.md explains the tables and pictures and says what differs.
+docs/results/published.md explains the tables and pictures and says what differs.
 
 ## Table 1: the four modules
 

@@ -60,10 +60,10 @@ Section SensorSection(const std::vector<ScenarioSpec>& sample) {
       .title = "The sensor's preset against recordings",
       .note =
           "On planes of one recording of each sensor, on halves of the scene that no parameter was "
-          "fitted to (docs/validation.md of railcast): error of the number of points over bins of "
-          "range, error of the intensities over cells, simulated over recorded noise, and the "
-          "share of firings on planes without a point. Nothing of these recordings is of railways, "
-          "and none is in rain or fog.",
+          "fitted to (docs/results/validation.md of railcast): error of the number of points over "
+          "bins of range, error of the intensities over cells, simulated over recorded noise, and "
+          "the share of firings on planes without a point. Nothing of these recordings is of "
+          "railways, and none is in rain or fog.",
       .columns = ColumnsOf("sensor: Sensor; state: State; points_error: Error of points; "
                            "intensity_error: Error of intensity; noise_ratio: Noise ratio; "
                            "holes_recorded: Holes, recorded; holes_simulated: Holes, simulated"),

@@ -154,7 +154,7 @@ inline constexpr RTCSceneFlags kWatertight = RTC_SCENE_FLAG_ROBUST;
 /// Of foliage, which is no closed surface; faster.
 inline constexpr RTCSceneFlags kOpen = RTC_SCENE_FLAG_NONE;
 
-/// Of the settings measured, a higher quality gains nothing (docs/performance.md).
+/// Of the settings measured, a higher quality gains nothing (docs/results/performance.md).
 inline RTCScene NewScene(RTCDevice device, RTCSceneFlags flags) {
   RTCScene scene = rtcNewScene(device);
   if (scene == nullptr) throw std::bad_alloc();

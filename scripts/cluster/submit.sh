@@ -7,7 +7,7 @@
 # Shards are made in OUT.shards/1, 2, ..., logs are in OUT.shards/log; OUT must lie on a file system
 # that all nodes share. A task that finds its shard complete ends at once, so that tries after the
 # first (3 in all by default) cost nothing where nothing was lost; the same command continues a data
-# set. Nodes of different kinds need an --isa that all have (docs/accuracy.md) for the same bytes. A
+# set. Nodes of different kinds need an --isa that all have (docs/results/accuracy.md) for the same bytes. A
 # task uses the processors that --cpus-per-task says. Prints the number of the last job, which fails
 # if the data set is not whole.
 set -euo pipefail

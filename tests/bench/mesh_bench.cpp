@@ -1,4 +1,4 @@
-// Measures what simplifying meshes costs and gains, for docs/detail.md. Prints a line for each file
+// Measures what simplifying meshes costs and gains, for docs/results/detail.md. Prints a line for each file
 // and tolerance, with tabs between: file, tolerance in mm, triangles, deviation in mm, time to read
 // the file, to simplify it and to prepare it for tracing in ms, time of a ray and of a beam that
 // meets its box in ns, root mean square and greatest difference of ranges in mm, and the share of

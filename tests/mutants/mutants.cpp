@@ -170,7 +170,7 @@ void CheckSection(const std::string& heading, const std::vector<const Mutants*>&
                            " mutants.\n\n| reader | change | refused | told | same values | "
                            "silent |\n|---|---|---|---|---|---|\n" +
                            rows;
-  const std::string file = std::string(RAILCAST_SOURCE_DIR) + "/docs/mutants.md";
+  const std::string file = std::string(RAILCAST_SOURCE_DIR) + "/docs/results/mutants.md";
   std::ostringstream read;
   read << std::ifstream(file).rdbuf();
   std::string page = read.str();

@@ -74,7 +74,7 @@ class Mutants {
 /// Reads all frames of a recording.
 [[nodiscard]] Reading ReadRecordingWhole(const std::filesystem::path& source);
 
-/// Compares a section of docs/mutants.md with what the tests found, or writes it:
+/// Compares a section of docs/results/mutants.md with what the tests found, or writes it:
 ///   RAILCAST_WRITE_MUTANTS=1 build/ci/tests/mutants/mutants_test
 void CheckSection(const std::string& heading, const std::vector<const Mutants*>& all);
 

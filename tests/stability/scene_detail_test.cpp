@@ -1,5 +1,5 @@
 // Coarser plants, ground and tracks far away against full detail everywhere: what a sensor measures
-// of them must stay. docs/detail.md has the comparison with intervals, by sensor.
+// of them must stay. docs/results/detail.md has the comparison with intervals, by sensor.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -151,7 +151,7 @@ double LastVisible_m(std::uint16_t material, const SimulatorSpec& spec) {
   return near_m;
 }
 
-// docs/validation.md compares this table with the code of Seeing Through Fog (Bijelic and others
+// docs/results/validation.md compares this table with the code of Seeing Through Fog (Bijelic and others
 // 2020, tools/DatasetFoggification/lidar_foggification.py), which has for an HDL-64E
 //   last visible range = ln((I + g) / n) / (2 alpha),   I: Velodyne's intensity / 255,
 // with n 0.05, g 0.35 (S2) and n 0.04, g 0.45 (S3D). Velodyne gives a white Lambertian 100. What is

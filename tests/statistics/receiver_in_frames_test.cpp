@@ -198,7 +198,7 @@ TEST(Effects, LeaveTheDrawsOfOthersAlone) {
                 std::count(all.outcome.begin(), all.outcome.end(), Outcome::kReturned)));
 }
 
-// The figures of docs/validation.md about dead time on the demo's scene.
+// The figures of docs/results/validation.md about dead time on the demo's scene.
 
 constexpr double kDeadTime_m = 0.5 * 299'792'458.0 * 7.9e-9;
 

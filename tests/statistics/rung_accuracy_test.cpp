@@ -38,7 +38,7 @@ LidarSpec SensorOf(const std::string& name) {
 struct OpenLine {
   OpenLine() {
     // The figures are those of full detail: rungs and yardstick see the same scene, and how that
-    // scene may be simplified is another question (docs/detail.md).
+    // scene may be simplified is another question (docs/results/detail.md).
     scenario.world.detail = SceneDetail::kFull;
     scenario.lidars = {scenario.lidar, SensorOf("pandar64")};
     for (const char* name : kInASector) {

@@ -201,7 +201,7 @@ struct PresetComparison {
   std::vector<IntensityCell> intensity;  ///< Of all turns, with one reflectivity everywhere.
   EchoGaps gaps;
 
-  // The figures of docs/validation.md; each bin counts alike. Those without any bin are NaN.
+  // The figures of docs/results/validation.md; each bin counts alike. NaN without bins.
   /// Mean absolute relative error of the number of points, over the bins of range with at least 500
   /// recorded ones.
   [[nodiscard]] double PointsError() const;

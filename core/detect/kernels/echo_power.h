@@ -159,7 +159,7 @@ inline void ApplyDetection(DetectTile& tile, const DetectionParameters& paramete
 /// the brightness of the surface: the intensity of the echo over the share of the beam that meets
 /// it. `dark` is 0 where there is no surface or no intensity is computed. All echoes of a firing
 /// share one draw, so that at equal brightness a loss of the nearer echo is a loss of the farther
-/// one, too. Real sensors lose more on dark surfaces; docs/validation.md gives figures.
+/// one, too. Real sensors lose more on dark surfaces; docs/results/validation.md gives figures.
 inline void ApplySensorDropout(DetectTile& tile, const SensorDropoutParameters& parameters) {
   const LaneKey key{parameters.seed, RandomUse::kSensorDropout, tile.frame};
   const SensorDropoutParameters p = parameters;  // The copy cannot alias the tile.

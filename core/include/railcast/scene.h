@@ -46,7 +46,7 @@ struct Model {
 };
 
 /// A model made of fewer and larger pieces, for where a sensor cannot tell the two apart
-/// (docs/detail.md). Both limits count at the model's place and scale with the model.
+/// (docs/results/detail.md). Both limits count at the model's place and scale with the model.
 struct CoarserModel {
   /// Its parts have the surfaces of the finest model's parts, in the same order.
   std::shared_ptr<const Model> model;
@@ -94,7 +94,7 @@ struct Chunk {
   std::vector<Wire> wires{};
 };
 
-/// Where a sensor cannot tell a chunk's coarser surfaces from the finest ones (docs/detail.md).
+/// Where a sensor cannot tell a chunk's coarser surfaces from the finest (docs/results/detail.md).
 struct CoarserSurfaces {
   Eigen::AlignedBox2d area_m;  ///< Where in plan the chunk's surfaces lie, in its frame.
   double ray_spacing_m{};      ///< Least distance of neighbouring rays.

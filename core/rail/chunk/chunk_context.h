@@ -20,7 +20,7 @@ class SurveyedScene;
 
 /// Overlap of neighbouring chunks. Each chunk has a frame of its own, so an exact seam would leak
 /// beams: 0.4 % of those aimed at it were measured to pass, and none with this overlap
-/// (docs/accuracy.md).
+/// (docs/results/accuracy.md).
 inline constexpr double kChunkOverlap_m = 1e-3;
 
 /// How many coarser forms ballast, ground and rails have. The coarsest is for what no firing meets.
@@ -39,7 +39,7 @@ struct ChunkContext {
   double begin_s_m{};
   double end_s_m{};  ///< Swept surfaces extend kChunkOverlap_m / 2 beyond either end.
   Transform chunk_from_world;
-  /// How coarse ballast, ground and rails are built (docs/detail.md), at most kMostCoarse. All
+  /// How coarse ballast, ground and rails are built (docs/results/detail.md), at most kMostCoarse. All
   /// forms begin and end with the same points as the finest one.
   std::size_t level = 0;
   /// The shape of the land; null: as high as the formation, and equally wide everywhere.

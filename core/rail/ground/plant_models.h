@@ -51,7 +51,7 @@ class PlantDice {
 
 inline constexpr double kGrassPatch_m = 2.0;
 
-/// A plant in full detail, and in less for where sensors cannot tell them apart (docs/detail.md).
+/// A plant in full detail, and in less where sensors cannot tell (docs/results/detail.md).
 struct PlantModel {
   std::shared_ptr<const Model> model;
   std::shared_ptr<const std::vector<CoarserModel>> coarser;

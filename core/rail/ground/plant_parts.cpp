@@ -147,7 +147,7 @@ Mesh GrassOf(std::span<const Blade> blades, const BladeMerger& merger) {
 }
 
 // The blades of coarser patches. What they lack in area makes up for their covering each other less
-// than the blades of a tuft do (docs/detail.md).
+// than the blades of a tuft do (docs/results/detail.md).
 constexpr BladeMerger kBladeMergers[] = {{.num = 2, .area = 0.992},
                                          {.num = 4, .area = 0.96},
                                          {.num = 8, .area = 0.92},

@@ -152,7 +152,7 @@ bool IsGroundCovered(const DemHeights& elevation,
   return true;
 }
 
-// What permits the coarser forms of a chunk (docs/detail.md). Ballast has cells of up to 0.48 m
+// What permits the coarser forms of a chunk (docs/results/detail.md). Ballast has cells of up to 0.48 m
 // across in the first, 2.5 spacings; along the track, where it is as fine as ever, most beams run.
 // Beams that are narrower than the spacing find the ground's edges behind its bumps: their width
 // counts, too.

@@ -19,9 +19,9 @@ struct HeldOutRow {
   std::vector<std::string> cells;
 };
 
-// The rows "odd" of the table of presets in docs/validation.md, which RealPreset.* holds.
+// The rows "odd" of the table of presets in docs/results/validation.md, which RealPreset.* holds.
 std::vector<HeldOutRow> RowsOfDocs() {
-  const std::string text = ReadFileWhole(RAILCAST_SOURCE_DIR "/docs/validation.md");
+  const std::string text = ReadFileWhole(RAILCAST_SOURCE_DIR "/docs/results/validation.md");
   std::istringstream lines(text.substr(text.find("| | sectors | points |")));
   std::vector<HeldOutRow> rows;
   std::string sensor;

@@ -152,7 +152,7 @@ TEST(NearObjectsScan, HoldsTheSameOfAPatternThatDoesNotRepeat) {
   EXPECT_GT(ExpectSameOnObjects(spec, {0, 1, 40}), 20U);
 }
 
-// The sensors of docs/detection_table.md.
+// The sensors of docs/results/detection_table.md.
 TEST(NearObjectsScan, HoldsTheSameOfAPersonAt100MetresOnRealSensors) {
   for (const std::string sensor : {"pandar64", "vls128", "rosette"}) {
     SCOPED_TRACE(sensor);

@@ -1,5 +1,5 @@
 // What real sensors lose on smooth surfaces of one brightness, against the presets' law of it.
-// docs/validation.md has the figures.
+// docs/results/validation.md has the figures.
 #include <gtest/gtest.h>
 
 #include <algorithm>

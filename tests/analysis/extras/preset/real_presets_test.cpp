@@ -1,4 +1,4 @@
-// The gate of the presets: each against a recording of its own sensor. docs/validation.md has the
+// The gate of the presets: each against a recording of its own sensor. docs/results/validation.md has the
 // figures.
 #include <gtest/gtest.h>
 
@@ -73,7 +73,7 @@ std::uint64_t NumFirings(const PlaneFigures& figures) {
 
 class RealPreset : public testing::TestWithParam<Gate> {};
 
-// The limits stand four standard errors from the figures of docs/validation.md.
+// The limits stand four standard errors from the figures of docs/results/validation.md.
 TEST_P(RealPreset, MeasuresItsSensorsPlanesAsTheSensorDid) {
   const Gate& gate = GetParam();
   if (const std::string why = WhyNoCapture(gate); !why.empty()) GTEST_SKIP() << why;

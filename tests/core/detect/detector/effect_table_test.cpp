@@ -178,7 +178,7 @@ TEST(EffectBetweenBeams, IsTheHaloWhereItHasACause) {
   EXPECT_EQ(EffectBetweenBeams(spec), nullptr);
 }
 
-// docs/accuracy.md lists every effect with the figure that backs it and the test that holds the
+// docs/results/accuracy.md lists every effect with the figure that backs it and the test that holds the
 // figure. These tests read the page, the table of effects and the sources of the tests.
 
 std::string TextOf(const std::filesystem::path& file) {
@@ -195,7 +195,7 @@ struct Claim {
 };
 
 std::vector<Claim> ReadClaims() {
-  const std::string page = TextOf(RAILCAST_SOURCE_DIR "/docs/accuracy.md");
+  const std::string page = TextOf(RAILCAST_SOURCE_DIR "/docs/results/accuracy.md");
   const std::size_t begin = page.find("### Each effect\n");
   std::istringstream lines(begin == std::string::npos ? "" : page.substr(begin));
   const std::regex row(R"(\| `([a-z_]+)` \| (.+) \| (.+) \|)");
