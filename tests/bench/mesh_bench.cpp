@@ -1,9 +1,9 @@
-// Measures what simplifying meshes costs and gains, for docs/results/detail.md. Prints a line for each file
-// and tolerance, with tabs between: file, tolerance in mm, triangles, deviation in mm, time to read
-// the file, to simplify it and to prepare it for tracing in ms, time of a ray and of a beam that
-// meets its box in ns, root mean square and greatest difference of ranges in mm, and the share of
-// rays in percent that meet it with or without simplification but not both, and the memory in MB
-// that preparing it takes. Times are of the processor, summed over the threads.
+// Measures what simplifying meshes costs and gains, for docs/results/detail.md. Prints a line for
+// each file and tolerance, with tabs between: file, tolerance in mm, triangles, deviation in mm,
+// time to read the file, to simplify it and to prepare it for tracing in ms, time of a ray and of a
+// beam that meets its box in ns, root mean square and greatest difference of ranges in mm, and the
+// share of rays in percent that meet it with or without simplification but not both, and the memory
+// in MB that preparing it takes. Times are of the processor, summed over the threads.
 //
 //   railcast-meshes FILE... [--up y] [--unit 0.01] [--normals 20] [--tolerances 0,1,2.5]
 //                  [--subdivide 3] [--noise 0.3]

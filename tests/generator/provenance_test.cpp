@@ -76,7 +76,8 @@ TEST(Provenance, OfTheBestInstructionSetIsTheSameWhetherForcedOrNot) {
   ASSERT_EQ(Generate(command + "left").status, 0);
   const auto made = Contents(directory.path() / "left");
   EXPECT_EQ(Contents(directory.path() / "forced"), made);
-  // The option is not only recorded but changes the trace; docs/results/accuracy.md states by how much.
+  // The option is not only recorded but changes the trace; docs/results/accuracy.md states by how
+  // much.
   ASSERT_EQ(Generate(command + "narrow --isa sse4.2").status, 0);
   const auto narrow = Contents(directory.path() / "narrow");
   EXPECT_EQ(narrow.at("frames/000000.pcd") == made.at("frames/000000.pcd"), best == "sse4.2");

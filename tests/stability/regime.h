@@ -19,9 +19,9 @@ inline std::string TwoDigits(double value) {
   return text;
 }
 
-/// Records a row of docs/results/where_methods_fail.md, which scripts/dev/measure_results.py reads from the
-/// report of this program: what the simple method does in a regime and what railcast does on every
-/// rung; or what one ray a beam, the rung `footprint` and the rung `reference` do.
+/// Records a row of docs/results/where_methods_fail.md, which scripts/dev/measure_results.py reads
+/// from the report of this program: what the simple method does in a regime and what railcast does
+/// on every rung; or what one ray a beam, the rung `footprint` and the rung `reference` do.
 inline void RecordRegime(const std::string& regime, std::initializer_list<std::string> cells) {
   std::string text;
   for (const std::string& cell : cells) text += (text.empty() ? "" : " | ") + cell;

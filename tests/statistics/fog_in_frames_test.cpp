@@ -68,8 +68,8 @@ FogShare MeasureFog(SimulatorSpec spec) {
   return share;
 }
 
-// Among them the figures of docs/effects.md. Between two sets of 16 seeds the shares differ by some 0.02; the
-// seeds are fixed, so that only single beams may differ between instruction sets.
+// Among them the figures of docs/effects.md. Between two sets of 16 seeds the shares differ by some
+// 0.02; the seeds are fixed, so that only single beams may differ between instruction sets.
 TEST(FogInFrames, HasTheSharesAndRangesOfTheTable) {
   struct Row {
     double range_at_10_percent_m, visibility_m, of_points, of_firings, low_m, median_m, high_m;
@@ -151,8 +151,8 @@ double LastVisible_m(std::uint16_t material, const SimulatorSpec& spec) {
   return near_m;
 }
 
-// docs/results/validation.md compares this table with the code of Seeing Through Fog (Bijelic and others
-// 2020, tools/DatasetFoggification/lidar_foggification.py), which has for an HDL-64E
+// docs/results/validation.md compares this table with the code of Seeing Through Fog (Bijelic and
+// others 2020, tools/DatasetFoggification/lidar_foggification.py), which has for an HDL-64E
 //   last visible range = ln((I + g) / n) / (2 alpha),   I: Velodyne's intensity / 255,
 // with n 0.05, g 0.35 (S2) and n 0.04, g 0.45 (S3D). Velodyne gives a white Lambertian 100. What is
 // compared is the surface's own range: fog echoes are off, which would replace the wall.

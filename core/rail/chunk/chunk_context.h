@@ -39,8 +39,8 @@ struct ChunkContext {
   double begin_s_m{};
   double end_s_m{};  ///< Swept surfaces extend kChunkOverlap_m / 2 beyond either end.
   Transform chunk_from_world;
-  /// How coarse ballast, ground and rails are built (docs/results/detail.md), at most kMostCoarse. All
-  /// forms begin and end with the same points as the finest one.
+  /// How coarse ballast, ground and rails are built (docs/results/detail.md), at most kMostCoarse.
+  /// All forms begin and end with the same points as the finest one.
   std::size_t level = 0;
   /// The shape of the land; null: as high as the formation, and equally wide everywhere.
   const Landform* land = nullptr;

@@ -64,9 +64,9 @@ void AppendSweep(std::span<const Transform> mesh_from_station,
                               std::size_t num_columns,
                               const std::function<bool(std::size_t, std::size_t)>& keeps);
 
-/// A grid of which inner rows have only some of the columns (docs/results/detail.md). The first and the
-/// last row have all of them, so that they equal those of a neighbouring chunk with the whole grid,
-/// and nothing opens between the two.
+/// A grid of which inner rows have only some of the columns (docs/results/detail.md). The first and
+/// the last row have all of them, so that they equal those of a neighbouring chunk with the whole
+/// grid, and nothing opens between the two.
 struct CoarseGrid {
   std::size_t num_rows{};            ///< At least three.
   std::size_t num_all_columns{};     ///< Of the first and the last row.

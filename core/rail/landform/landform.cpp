@@ -152,10 +152,10 @@ bool IsGroundCovered(const DemHeights& elevation,
   return true;
 }
 
-// What permits the coarser forms of a chunk (docs/results/detail.md). Ballast has cells of up to 0.48 m
-// across in the first, 2.5 spacings; along the track, where it is as fine as ever, most beams run.
-// Beams that are narrower than the spacing find the ground's edges behind its bumps: their width
-// counts, too.
+// What permits the coarser forms of a chunk (docs/results/detail.md). Ballast has cells of up to
+// 0.48 m across in the first, 2.5 spacings; along the track, where it is as fine as ever, most
+// beams run. Beams that are narrower than the spacing find the ground's edges behind its bumps:
+// their width counts, too.
 constexpr double kCoarseRaySpacings_m[kMostCoarse] = {0.19,
                                                       std::numeric_limits<double>::infinity()};
 constexpr double kCoarseBeamWidth_m = 0.2;

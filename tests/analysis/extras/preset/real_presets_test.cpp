@@ -1,5 +1,5 @@
-// The gate of the presets: each against a recording of its own sensor. docs/results/validation.md has the
-// figures.
+// The gate of the presets: each against a recording of its own sensor. docs/results/validation.md
+// has the figures.
 #include <gtest/gtest.h>
 
 #include <cmath>

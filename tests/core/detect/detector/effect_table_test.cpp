@@ -178,8 +178,8 @@ TEST(EffectBetweenBeams, IsTheHaloWhereItHasACause) {
   EXPECT_EQ(EffectBetweenBeams(spec), nullptr);
 }
 
-// docs/results/accuracy.md lists every effect with the figure that backs it and the test that holds the
-// figure. These tests read the page, the table of effects and the sources of the tests.
+// docs/results/accuracy.md lists every effect with the figure that backs it and the test that holds
+// the figure. These tests read the page, the table of effects and the sources of the tests.
 
 std::string TextOf(const std::filesystem::path& file) {
   std::ostringstream text;
