@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-#include <string>
 
 #include "railcast/frame.h"
 #include "railcast/io/recording.h"

@@ -15,7 +15,6 @@
 #include <vtkStaticCellLocator.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 

@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <cstring>
-#include <utility>
 
 #include "core/base/error.h"
 #include "core/simulate/scene_store.h"

@@ -9,8 +9,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <functional>
-#include <iostream>
 #include <map>
 #include <memory>
 #include <optional>

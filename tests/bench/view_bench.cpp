@@ -13,7 +13,6 @@
 #include <cstdint>
 #include <memory>
 #include <numbers>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <string>
 
 #include "analysis/stats/bins.h"
 #include "analysis/stats/statistics.h"

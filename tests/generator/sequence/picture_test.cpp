@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 
 #include "core/io/image/png.h"
 #include "generator/run/frame_maker.h"

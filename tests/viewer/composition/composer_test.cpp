@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "railcast/rail_world.h"
 #include "railcast/scenario.h"

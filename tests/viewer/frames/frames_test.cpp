@@ -1,6 +1,5 @@
 #include "viewer/frames/frames.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "railcast/io/cloud_files.h"

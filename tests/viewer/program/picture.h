@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
-#include <set>
-#include <utility>
 #include <vector>
 
 #include "viewer/color/palette.h"

@@ -2,10 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstddef>
 #include <limits>
-#include <variant>
 #include <vector>
 
 #include "core/extras/ros/messages/cdr.h"

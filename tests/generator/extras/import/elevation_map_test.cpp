@@ -6,7 +6,6 @@
 #include <ogr_spatialref.h>
 
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string>

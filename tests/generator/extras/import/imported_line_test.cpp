@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "core/io/write_file.h"
 #include "generator/extras/import/import_files.h"

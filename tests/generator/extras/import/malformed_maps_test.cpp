@@ -1,10 +1,8 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <sstream>
 #include <string>
-#include <vector>
 
 #include "core/io/write_file.h"
 #include "generator/extras/import/map/read_map.h"

@@ -4,9 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <string>
-#include <vector>
 
 #include "generator/extras/import/map/map_projection.h"
 #include "railcast/error.h"

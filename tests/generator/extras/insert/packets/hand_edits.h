@@ -1,14 +1,10 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "generator/extras/insert/inserted_frame.h"

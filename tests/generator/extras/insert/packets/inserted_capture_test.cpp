@@ -1,12 +1,10 @@
 // From a plan to the packets: what is written to a capture, read again, and sent.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "core/extras/packets/pcap/pcap_reader.h"
 #include "core/extras/packets/pcap/pcap_writer.h"

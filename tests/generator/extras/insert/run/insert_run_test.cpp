@@ -9,7 +9,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
 #include "core/io/field_layout.h"
 #include "core/io/verify/verification.h"
