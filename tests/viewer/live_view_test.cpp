@@ -141,8 +141,7 @@ TEST_F(LiveWindow, FallsBackWhereALaterFrameLacksTheField) {
     ASSERT_TRUE(WaitForPoints());
     coloured = Saved();
   }
-  StreamSpec without_intensity;
-  without_intensity.fields = FieldSelection("x,y,z");
+  StreamSpec without_intensity{.fields = FieldSelection("x,y,z")};
   const EndlessSender sender(at_, {Scan(Square(3), without_intensity)});
   // The fallback is height, which rises upwards, whereas intensity rose to the left.
   EXPECT_TRUE(window().WaitUntil([&] {
@@ -190,8 +189,7 @@ TEST_F(LiveWindow, OutlivesSendersAndTheirNoise) {
   const Picture before = Saved();
   Frame moved = Square(0);
   for (float& y_m : moved.y) y_m -= 5.0F;
-  StreamSpec anew;
-  anew.run = 1;
+  StreamSpec anew{.run = 1};
   const EndlessSender sender(at_, {Scan(moved, anew)});
   EXPECT_TRUE(window().WaitUntil([&] {
     const Picture picture = Saved();

@@ -71,9 +71,9 @@ TEST(ReportJson, HasTheDetailsBesideTheReport) {
 }
 
 TEST(ReportFormats, CallABinByItsEnds) {
-  Report report;
-  report.sections = {
-      {"s", "S", {}, {}, {{"t", "T", "", {{"range_m", "Range", "m"}}, {{Span{2.5, 5}}}}}}};
+  Report report{
+      .sections = {
+          {"s", "S", {}, {}, {{"t", "T", "", {{"range_m", "Range", "m"}}, {{Span{2.5, 5}}}}}}}};
   EXPECT_EQ(TableCsv(report.sections[0].tables[0]), "range_m\n2.5 to 5\n");
   const PlainJson row = PlainJson::parse(ReportJson(report))["sections"][0]["tables"][0]["rows"][0];
   EXPECT_EQ(row["range_m"]["low"], 2.5);
@@ -88,8 +88,7 @@ TEST(ReportJson, KeepsTheOrderOfColumns) {
 }
 
 TEST(ReportJson, SurvivesNamesThatAreNoUtf8) {
-  Report report;
-  report.title = "out/\xff";
+  Report report{.title = "out/\xff"};
   EXPECT_FALSE(PlainJson::parse(ReportJson(report))["title"].get<std::string>().empty());
 }
 

@@ -23,8 +23,7 @@ TEST(ReportMarkdown, BeginsWithTitleFactsAndHeadlines) {
 }
 
 TEST(ReportMarkdown, ShowsOpenTablesAndLinksTheOthersToTheirFiles) {
-  Report report;
-  report.sections = {{.key = "a", .title = "A", .tables = {MadeTable()}}};
+  Report report{.sections = {{.key = "a", .title = "A", .tables = {MadeTable()}}}};
   EXPECT_THAT(ReportMarkdown(report),
               HasSubstr("\n[Dropout by range](csv/dropout_by_range.csv)\n"));
   report.sections[0].tables[0].is_open = true;
@@ -38,9 +37,10 @@ TEST(ReportMarkdown, ShowsOpenTablesAndLinksTheOthersToTheirFiles) {
 }
 
 TEST(ReportMarkdown, RefersToDrawingsBesideIt) {
-  Report report;
-  report.sections = {
-      {.key = "a", .title = "A", .charts = {MadeCharts().front()}, .pictures = {MadePicture()}}};
+  Report report{.sections = {{.key = "a",
+                              .title = "A",
+                              .charts = {MadeCharts().front()},
+                              .pictures = {MadePicture()}}}};
   EXPECT_THAT(ReportMarkdown(report),
               HasSubstr("![What is \\<seen\\>](charts/seen.png)\n\nA line \"upwards\".\n\n"
                         "![Lines keep a gap where a figure is absent](charts/lines.png)\n"));
@@ -48,14 +48,13 @@ TEST(ReportMarkdown, RefersToDrawingsBesideIt) {
 
 // A cell must not end its row or begin a column.
 TEST(ReportMarkdown, KeepsACellInItsPlace) {
-  Report report;
-  report.sections = {{.key = "a",
-                      .title = "A",
-                      .tables = {{.key = "t",
-                                  .title = "T",
-                                  .columns = {{"x", "X", ""}},
-                                  .rows = {{std::string("a|b\nc `d` *e*")}},
-                                  .is_open = true}}}};
+  Report report{.sections = {{.key = "a",
+                              .title = "A",
+                              .tables = {{.key = "t",
+                                          .title = "T",
+                                          .columns = {{"x", "X", ""}},
+                                          .rows = {{std::string("a|b\nc `d` *e*")}},
+                                          .is_open = true}}}}};
   EXPECT_THAT(ReportMarkdown(report), HasSubstr("| X |\n| --- |\n| a\\|b c \\`d\\` \\*e\\* |\n"));
 }
 

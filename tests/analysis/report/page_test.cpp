@@ -46,9 +46,8 @@ TEST(ReportPage, SaysWhatIsAbsent) {
 }
 
 TEST(ReportPage, WritesPowersOfTenAsSuch) {
-  Report report;
-  report.headlines = {{"Small", "bit", Estimate{3.0663e-5, 2.7741e-5, 3.3585e-5, 12}},
-                      {"Large", "", -2.5e12}};
+  Report report{.headlines = {{"Small", "bit", Estimate{3.0663e-5, 2.7741e-5, 3.3585e-5, 12}},
+                              {"Large", "", -2.5e12}}};
   const std::string page = ReportPage(report, {});
   EXPECT_THAT(page, HasSubstr(">3.07\u202f×\u202f10<sup>−5</sup></span>"));
   EXPECT_THAT(page,
@@ -116,8 +115,7 @@ TEST(ReportPage, LeavesLongTablesToTheirFilesOnPaper) {
 }
 
 TEST(ReportPage, PrintsOpenTablesFirst) {
-  Report report;
-  report.sections = {{.key = "s", .title = "S"}};
+  Report report{.sections = {{.key = "s", .title = "S"}}};
   for (int i = 0; i < 60; ++i) {
     Table table{.key = "t" + std::to_string(i), .title = "T", .columns = {{"x", "X", ""}}};
     table.rows.assign(20, {std::uint64_t{1}});

@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "core/base/error.h"
 #include "tests/analysis/recorded_frames.h"
+#include "tests/core/io/message_of.h"
 #include "tests/core/rail/world/made_track.h"
 
 namespace railcast {
@@ -76,12 +76,8 @@ TEST(GaugePoints, NeedThePoseOfTheSensor) {
   recorded.has_pose = false;
   recorded.name = "a.pcd";
   GaugePoints points;
-  try {
-    points.Add(recorded, MadeTrack());
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "a.pcd: must have the sensor's pose for --track");
-  }
+  EXPECT_EQ(MessageOf([&] { points.Add(recorded, MadeTrack()); }),
+            "a.pcd: must have the sensor's pose for --track");
 }
 
 }  // namespace

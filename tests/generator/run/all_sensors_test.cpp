@@ -17,6 +17,7 @@
 #include "railcast/io/cloud_files.h"
 #include "railcast/io/recording.h"
 #include "railcast/scenario.h"
+#include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/example_run.h"
 #include "tests/generator/run_command.h"
@@ -146,14 +147,7 @@ TEST_F(MergedClouds, AreARecordingWithTheirNumbersPosesAndBoxes) {
 }
 
 TEST_F(MergedClouds, AreNamedWhereTheFolderAboveIsOpened) {
-  const auto message = [&] {
-    try {
-      (void)OpenRecording(Out("run"));
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
+  const auto message = [&] { return MessageOf([&] { (void)OpenRecording(Out("run")); }); };
   ASSERT_EQ(Make("run", "--frames 1").status, 0);
   const std::string run = Out("run").string();
   const std::string sensors =

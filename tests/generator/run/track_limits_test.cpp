@@ -63,11 +63,10 @@ TEST_F(TrackLimits, NameTheFirstFrameBeyondTheEnd) {
 TEST_F(TrackLimits, HoldForTheForemostBuffersOfTrains) {
   scenario.vehicle.consist = {{TypeNamed("open_wagon"), {}, false}};
   scenario.vehicle.motion = Constantly(25.0);
-  TrainSpec train;
-  train.name = "freight";
-  train.s_m = 600.0;
-  train.vehicles = {{TypeNamed("open_wagon"), {}, false}};
-  train.motion = Constantly(50.0, true);
+  TrainSpec train{.name = "freight",
+                  .s_m = 600.0,
+                  .vehicles = {{TypeNamed("open_wagon"), {}, false}},
+                  .motion = Constantly(50.0, true)};
   scenario.world.trains = {train};
   // 597.48 m at 25 m/s take 23.9 s, and 600 - 14.04 m at 50 m/s 11.72 s.
   EXPECT_EQ(Message(0, 116), "no error");

@@ -123,8 +123,7 @@ TEST(ComposeChanges, MakesLabelsFaintThatAreNotSelectedInBoth) {
   RecordedFrame after = RecordedCloud("b.pcd", {{7, 8, 9}});
   after.fields.emplace("label");
   after.frame.label = {12};
-  Choices choices;
-  choices.labels = {1};
+  Choices choices{.labels = {1}};
   const Composition composition =
       ComposeChanges(Shared(std::move(before)), Shared(std::move(after)), choices);
   EXPECT_THAT(composition.clouds[0].is_faint, ElementsAre(true));

@@ -25,8 +25,7 @@ TEST(ComposeDistances, LaysTheSecondWhereItWasInTheFirstsAxes) {
   const Transform second = MakeTransform(RotationFromYawPitchRoll(-1.2, 0.1, 0.0), {90, 5, 1});
   const auto a = Posed(sparse_world_m, first);
   const auto b = Posed(sparse_world_m, second);
-  Choices choices;
-  choices.distance_ends_m = {{0.0, 1.0}};
+  Choices choices{.distance_ends_m = {{0.0, 1.0}}};
   const Composition composition = ComposeDistances(a, b, choices);
   ASSERT_THAT(composition.clouds, SizeIs(2));
   EXPECT_EQ(composition.clouds[0].shown, a);
@@ -46,8 +45,7 @@ TEST(ComposeDistances, ColoursByHowFarTheOtherIsAway) {
   std::vector<Vector3> shifted_m = sparse_world_m;
   for (std::size_t i = 0; i < shifted_m.size(); ++i)
     shifted_m[i].z() += 0.5 * static_cast<double>(i);
-  Choices choices;
-  choices.distance_ends_m = {{0.0, 2.0}};
+  Choices choices{.distance_ends_m = {{0.0, 2.0}}};
   const Composition composition = ComposeDistances(a, SharedCloud(shifted_m), choices);
   EXPECT_TRUE(composition.clouds[1].view_from_sensor.isApprox(Transform::Identity(), 0.0));
   EXPECT_EQ(composition.coloring.ends, choices.distance_ends_m);

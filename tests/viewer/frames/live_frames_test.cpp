@@ -23,10 +23,7 @@ bool EventuallyPolls(LiveFrames& frames) {
 
 /// The stream of a sender with these fields. The larger its run, the later it began.
 StreamSpec Fields(const std::string& fields, std::uint32_t run) {
-  StreamSpec spec;
-  spec.fields = FieldSelection(fields);
-  spec.run = run;
-  return spec;
+  return {.fields = FieldSelection(fields), .run = run};
 }
 
 TEST(LiveFrames, AreThoseThatAreSent) {
@@ -145,8 +142,7 @@ TEST(LiveFrames, AreNotDrawnInAScenarioByTheTimeOfDay) {
 
 TEST(LiveFrames, AreOfOneSensorIfTwoSendToThePort) {
   LiveFrames frames("udp://here", kAnyLoopbackPort, {.sensor = 1});
-  StreamSpec roof_spec;
-  roof_spec.sensor = 1;
+  StreamSpec roof_spec{.sensor = 1};
   LiveStream front(frames.at());
   LiveStream roof(frames.at(), roof_spec);
   for (std::uint32_t place = 0; place < 3; ++place) {

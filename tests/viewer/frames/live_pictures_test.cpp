@@ -82,8 +82,7 @@ TEST_F(LivePicturesTest, AreOfTheFramesRun) {
   SendFrame(5);
   SendPicture(5, 1);
   EXPECT_EQ(ColorAt(0), nullptr);
-  StreamSpec next;
-  next.run = 1;
+  StreamSpec next{.run = 1};
   stream_.Restart(next);
   SendFrame(5);
   EXPECT_EQ(ColorAt(0), nullptr);

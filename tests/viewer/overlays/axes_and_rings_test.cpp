@@ -55,9 +55,7 @@ TEST(RangeRings, StopAtTheLimitAndSayTheirRadiusAheadAndBehind) {
 }
 
 TEST(RangeRings, LieAtTopOfRailBelowASensorWhoseMountIsKnown) {
-  MountSpec mount;
-  mount.position_m = {2.2, 0.3, 2.5};
-  mount.pitch_deg = 5.0;
+  MountSpec mount{.position_m = {2.2, 0.3, 2.5}, .pitch_deg = 5.0};
   mount.yaw_deg = 30.0;
   const Overlay drawing = DrawRangeRings(25.0, mount);
   const Transform vehicle_from_sensor = VehicleFromSensor(mount);

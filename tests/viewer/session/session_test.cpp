@@ -189,8 +189,7 @@ TEST(Session, AccumulatesAsManyFramesAsThereAre) {
   std::vector<std::shared_ptr<const ShownFrame>> held;
   for (std::uint32_t i = 0; i < 5; ++i) held.push_back(Share(MovingCloud(i)));
   HeldFrames frames(held);
-  Choices choices;
-  choices.num_accumulated = 3;
+  Choices choices{.num_accumulated = 3};
   Session session({&frames}, choices);
   ASSERT_TRUE(session.Seek(1));
   EXPECT_THAT(session.Compose()[0].clouds, SizeIs(2));
@@ -207,8 +206,7 @@ TEST(Session, AccumulatesAsManyFramesAsThereAre) {
 
 TEST(Session, SaysThatFramesWithoutPosesAreNotAccumulated) {
   HeldFrames frames({Share(NumberedCloud(0)), Share(NumberedCloud(1))});
-  Choices choices;
-  choices.num_accumulated = 2;
+  Choices choices{.num_accumulated = 2};
   Session session({&frames}, choices);
   ASSERT_TRUE(session.Seek(1));
   EXPECT_EQ(session.Missing(), "frames without poses are not accumulated");
@@ -282,8 +280,7 @@ TEST(Session, ColoursTwoSourcesByWhatBothHave) {
 TEST(Session, RefusesTwoSourcesOfWhichOneLacksTheFieldAskedFor) {
   HeldFrames a({Share(LabelledCloud(0))}, "a");
   HeldFrames b({Share(NumberedCloud(5))}, "b");
-  Choices choices;
-  choices.color_by = "label";
+  Choices choices{.color_by = "label"};
   Session session({&a, &b}, choices);
   EXPECT_EQ(MessageOf([&] { (void)session.Seek(0); }),
             "5.pcd: has no field label to color by (has: range, height, x, y)");
@@ -292,8 +289,7 @@ TEST(Session, RefusesTwoSourcesOfWhichOneLacksTheFieldAskedFor) {
 TEST(Session, OfTwoSourcesShowsTheirDistancesInOneView) {
   HeldFrames a({Share(NumberedCloud(0))}, "a");
   HeldFrames b({Share(NumberedCloud(3))}, "b");
-  Choices choices;
-  choices.layout = Layout::kDistance;
+  Choices choices{.layout = Layout::kDistance};
   Session session({&a, &b}, choices);
   EXPECT_EQ(session.num_views(), 1U);
   ASSERT_TRUE(session.Seek(0));
@@ -311,8 +307,7 @@ TEST(Session, OfTwoSourcesShowsTheirDistancesInOneView) {
 TEST(Session, OfTwoSourcesShowsTheChangesInTheAxesOfTheSecond) {
   HeldFrames a({Share(MovingCloud(0))}, "a");
   HeldFrames b({Share(MovingCloud(3))}, "b");
-  Choices choices;
-  choices.layout = Layout::kChanges;
+  Choices choices{.layout = Layout::kChanges};
   Session session({&a, &b}, choices);
   EXPECT_EQ(session.num_views(), 1U);
   ASSERT_TRUE(session.Seek(0));

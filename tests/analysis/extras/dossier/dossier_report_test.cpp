@@ -30,8 +30,7 @@ FinishedStudy MakeStudyIn(const std::filesystem::path& folder, const nlohmann::j
   const StudySpec spec = ReadStudy(WriteStudy(folder, recipe));
   const Recipe read = ReadStudyRecipe(spec);
   const ScenarioDrawer drawer(read);
-  StudyChoices choices;
-  choices.directory = folder / "made";
+  StudyChoices choices{.directory = folder / "made"};
   const StudyResult result = RunStudy(spec, drawer, choices, NoStudyHooks());
   KeepFiles(spec, drawer, {}, SampleOf(ObservationsOf(result.approaches)), choices.directory);
   return ReadFinishedStudy(choices.directory);

@@ -21,9 +21,7 @@ void MakeKeptStudy(const std::filesystem::path& folder, const Shard& shard) {
   const StudySpec spec = ReadStudy(WriteStudy(project.path(), StudiedRecipe(6)));
   const Recipe recipe = ReadStudyRecipe(spec);
   const ScenarioDrawer drawer(recipe);
-  StudyChoices choices;
-  choices.directory = folder;
-  choices.shard = shard;
+  StudyChoices choices{.directory = folder, .shard = shard};
   const StudyResult result = RunStudy(spec, drawer, choices, NoStudyHooks());
   const std::vector<Observation> observations = ObservationsOf(result.approaches);
   KeepFiles(spec, drawer, {}, SampleOf(observations), folder);

@@ -53,15 +53,14 @@ RunCourses CoursesOfWholeFrames(const ScenarioSpec& scenario, std::uint32_t num_
         recorded.frame, std::vector<ObjectView>(simulator->world().objects().size()));
     recorded.objects.clear();
     for (const ObjectInFrame& object : described) {
-      RecordedObject as_read;
-      as_read.name = object.name;
-      as_read.type = object.type;
-      as_read.label = object.label;
-      as_read.size_m = object.size_m;
-      as_read.sensor_from_box = recorded.frame.world_from_sensor.inverse() * object.world_from_box;
-      as_read.velocity_world_mps = object.velocity_world_mps;
-      as_read.points = object.points;
-      recorded.objects.push_back(as_read);
+      recorded.objects.push_back(
+          {.name = object.name,
+           .type = object.type,
+           .label = object.label,
+           .size_m = object.size_m,
+           .sensor_from_box = recorded.frame.world_from_sensor.inverse() * object.world_from_box,
+           .velocity_world_mps = object.velocity_world_mps,
+           .points = object.points});
     }
     AddFrame(recorded, VehicleFromSensor(scenario.lidar.mount), track, courses);
   }

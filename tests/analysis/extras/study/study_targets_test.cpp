@@ -25,9 +25,8 @@ std::vector<ApproachRecord> ApproachesThatDetectAt(const std::vector<double>& de
     object.nearest_m = 5.0;
     object.farthest_m = 200.0;
     object.needed_m = needed_m;
-    ApproachRecord approach;
-    approach.scenario = static_cast<std::uint32_t>(approaches.size());
-    approach.objects = {object};
+    ApproachRecord approach{.scenario = static_cast<std::uint32_t>(approaches.size()),
+                            .objects = {object}};
     approaches.push_back(std::move(approach));
   }
   return approaches;

@@ -59,9 +59,7 @@ class ConvertRecording : public testing::Test {
     return Path("drive.pcap");
   }
   [[nodiscard]] fs::path MakeRun(const std::string& format) const {
-    MadeSequenceSpec made;
-    made.format = format;
-    made.num_frames = 3;
+    MadeSequenceSpec made{.format = format, .num_frames = 3};
     made.return_mode = "dual";
     (void)MakeSequence(Path("run_" + format), made);
     return Path("run_" + format);

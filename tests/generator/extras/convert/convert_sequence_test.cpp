@@ -59,8 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Formats,
 TEST(ConvertSequence, TellsWhatTheFormatHasNoPlaceFor) {
   const TemporaryDirectory folder;
   const fs::path run = folder.path() / "run";
-  MadeSequenceSpec made;
-  made.fields = "x,y,z,intensity,ring,label";
+  MadeSequenceSpec made{.fields = "x,y,z,intensity,ring,label"};
   const MadeSequence truth = MakeSequence(run, made);
   std::uint64_t num_points = 0;
   std::uint64_t num_absent = 0;
@@ -80,8 +79,7 @@ TEST(ConvertSequence, TellsWhatTheFormatHasNoPlaceFor) {
 TEST(ConvertSequence, DoesNotSayWhyFiringsHaveNoPointWhereTheRecordingDoesNot) {
   const TemporaryDirectory folder;
   const auto path = [&](const std::string& name) { return folder.path() / name; };
-  MadeSequenceSpec made;
-  made.format = "ply";
+  MadeSequenceSpec made{.format = "ply"};
   (void)MakeSequence(path("ply"), made);
   const ConvertResult result =
       ConvertAll({.recording = path("ply"), .directory = path("pcd"), .format = "pcd"});
@@ -93,8 +91,7 @@ TEST(ConvertSequence, DoesNotSayWhyFiringsHaveNoPointWhereTheRecordingDoesNot) {
 TEST(ConvertSequence, GivesTheSameBytesHoweverItIsMade) {
   const TemporaryDirectory folder;
   const auto path = [&](const std::string& name) { return folder.path() / name; };
-  MadeSequenceSpec made;
-  made.num_frames = 5;
+  MadeSequenceSpec made{.num_frames = 5};
   (void)MakeSequence(path("run"), made);
   for (const int num_threads : {1, 4}) {
     EXPECT_TRUE(ConvertAll({.recording = path("run"),
@@ -114,8 +111,7 @@ TEST(ConvertSequence, GivesTheSameBytesHoweverItIsMade) {
 TEST(ConvertSequence, TakesSomeFramesAndFields) {
   const TemporaryDirectory folder;
   const auto path = [&](const std::string& name) { return folder.path() / name; };
-  MadeSequenceSpec made;
-  made.num_frames = 4;
+  MadeSequenceSpec made{.num_frames = 4};
   (void)MakeSequence(path("run"), made);
   made.start_frame = 1;
   made.num_frames = 2;
@@ -152,12 +148,10 @@ TEST(ConvertSequence, RefusesWhatHasNoPointsOrOtherAxes) {
         [&] { (void)ConvertAll({.recording = run, .directory = out, .format = format}); });
     return whole.substr(whole.find(": ") + 2);
   };
-  MadeSequenceSpec objects;
-  objects.format = "objects";
+  MadeSequenceSpec objects{.format = "objects"};
   EXPECT_EQ(message(objects, "pcd"), "must have points (got format objects)");
   EXPECT_EQ(message(objects, "mcap"), "must have points (got a sequence without)");
-  MadeSequenceSpec world;
-  world.output = R"({"frame": "world"})";
+  MadeSequenceSpec world{.output = R"({"frame": "world"})"};
   EXPECT_EQ(message(world, "ply"),
             "must have its points in the sensor's axes to become a sequence; --format mcap or "
             "rosbag2 takes them");

@@ -6,7 +6,7 @@
 
 #include "core/io/write_file.h"
 #include "generator/extras/import/map/read_map.h"
-#include "railcast/error.h"
+#include "tests/core/io/message_of.h"
 
 namespace railcast {
 namespace {
@@ -16,12 +16,7 @@ namespace fs = std::filesystem;
 constexpr const char* kFolder = RAILCAST_SOURCE_DIR "/tests/generator/extras/import/malformed";
 
 std::string FaultOf(const fs::path& file) {
-  try {
-    static_cast<void>(ReadMap(file));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return MessageOf([&] { static_cast<void>(ReadMap(file)); });
 }
 
 /// The lines of NAME.expected, each with the file before it.

@@ -8,6 +8,7 @@
 
 #include "generator/extras/import/map/map_projection.h"
 #include "railcast/error.h"
+#include "tests/core/io/message_of.h"
 #include "tests/generator/extras/import/written_maps.h"
 
 namespace railcast {
@@ -300,12 +301,7 @@ TEST(MapProjection, DoesNotBlameASystemThatWasNotGiven) {
 TEST(MapProjection, RefusesSystemsThatAreNotInMetres) {
   const auto fault = [](const std::string& definition) -> std::string {
     RailMap map = TwoNodes({15.6, 48.20}, {15.6, 48.21});
-    try {
-      static_cast<void>(ProjectMap(definition, map));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no error";
+    return MessageOf([&] { static_cast<void>(ProjectMap(definition, map)); });
   };
   EXPECT_EQ(fault("EPSG:99999"),
             "--crs: must be a coordinate system that PROJ knows, such as EPSG:31256 (got "

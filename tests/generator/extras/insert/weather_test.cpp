@@ -230,8 +230,7 @@ std::vector<WeatherCase> WeatherCases() {
   fog.visibility_m = 80.0;
   WeatherSpec snow;
   snow.snow_rate_mmph = 4.0;
-  CoverSpec drops;
-  drops.drop_coverage = 0.3;
+  CoverSpec drops{.drop_coverage = 0.3};
   return {{"rain", rain}, {"fog", fog}, {"snow", snow}, {"drops", {}, drops}};
 }
 

@@ -61,10 +61,9 @@ TEST(SensorView, HasRaysFromTheLeftToTheRightAndFromTheTopDown) {
 }
 
 TEST(SensorView, BeginsAtTheLeftEndWhereverTheRotorDoes) {
-  SpinningSpec spinning;
-  spinning.channels = {{.elevation_deg = 0.0, .azimuth_deg = 0.0, .time_us = 0.0}};
-  spinning.cycle_us = 10'000.0;
-  spinning.columns = 10;
+  SpinningSpec spinning{.channels = {{.elevation_deg = 0.0, .azimuth_deg = 0.0, .time_us = 0.0}},
+                        .cycle_us = 10'000.0,
+                        .columns = 10};
   for (const Rotation rotation : {Rotation::kClockwise, Rotation::kCounterclockwise}) {
     spinning.rotation = rotation;
     const ScanPattern pattern = BuildScanPattern({.rate_hz = 10.0, .pattern = spinning});

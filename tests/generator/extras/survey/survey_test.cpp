@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/base/error.h"
+#include "tests/core/io/message_of.h"
 #include "tests/generator/extras/survey/survey_scenes.h"
 
 namespace railcast {
@@ -77,13 +77,8 @@ TEST(MakeSurvey, UndoesTheIncidenceOfReflectances) {
 TEST(MakeSurvey, RefusesToMakeNothing) {
   MadeFrames frames;
   AddPoint({5.0, 0.0, 0.0}, frames.Add({0.0, 0.0, 2.0}));
-  try {
-    static_cast<void>(MakeSurvey(frames.All(), {}, {}));
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "the survey: must have surfaces (got 1 points of 1 frames and no surface)");
-  }
+  EXPECT_EQ(MessageOf([&] { static_cast<void>(MakeSurvey(frames.All(), {}, {})); }),
+            "the survey: must have surfaces (got 1 points of 1 frames and no surface)");
 }
 
 /// The number of surfels within 0.5 m of a place in plan.

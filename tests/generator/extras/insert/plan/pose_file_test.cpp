@@ -213,8 +213,7 @@ TEST(PoseFile, GivesCloudsWithoutPosesTheirWay) {
   WriteFileWhole(file, kCsv);
   LidarSpec lidar;
   lidar.mount.position_m = {0.0, 0.0, 2.0};
-  RecordingWorldSpec world;
-  world.poses_file = file.string();
+  RecordingWorldSpec world{.poses_file = file.string()};
   std::vector<std::string> remarks;
   const auto read = [&] {
     return ReadRecordedWay(folder.path() / "clouds", world, lidar, remarks);

@@ -404,8 +404,7 @@ TEST(InsertRun, GivesThingsThatMoveTheirMovingClassBesideKittisClouds) {
 TEST(InsertRun, RefusesKittisCloudsWithNoiseAcrossTheBeams) {
   const TemporaryDirectory folder;
   const fs::path run = folder.path() / "run";
-  MadeSequenceSpec made;
-  made.format = "kitti";
+  MadeSequenceSpec made{.format = "kitti"};
   (void)MakeSequence(run, made);
   InsertChoices choices = {.recording = run,
                            .plan = WriteRunPlan(folder.path(), kBox),

@@ -37,9 +37,7 @@ inline std::filesystem::path WriteRunPlan(const std::filesystem::path& folder,
 inline constexpr const char* kAlongBeams = R"(, "plausibility": {"noise_shape": "beam"})";
 
 inline MadeSequenceSpec RunWith(const std::string& format, const std::string& object) {
-  MadeSequenceSpec made;
-  made.format = format;
-  made.object = object;
+  MadeSequenceSpec made{.format = format, .object = object};
   // KITTI's clouds do not say which beam a point is of, so that points must lie on their beams.
   if (format == "kitti") made.lidar = kAlongBeams;
   return made;
