@@ -4,8 +4,12 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <vector>
+
+#include "analysis/estimate/estimate.h"
+#include "analysis/estimate/logistic_model.h"
 
 namespace railcast {
 namespace {
@@ -140,6 +144,100 @@ TEST(DetectionFit, HasNoCurveWhereNothingIsDetected) {
   EXPECT_TRUE(std::isnan(fit.d90_m));
   EXPECT_TRUE(std::isnan(fit.d90_95_m));
   EXPECT_EQ(fit.num_targets, 80U);
+}
+
+// One group of each kind: the penalised estimate of a saturated table adds a half to each cell.
+TEST(LogisticModel, OfTwoGroupsIsTheirLogOddsWithAHalfAddedToEachCount) {
+  Eigen::MatrixXd x(30, 2);
+  Eigen::VectorXd y(30);
+  for (int i = 0; i < 30; ++i) {
+    x(i, 0) = 1.0;
+    x(i, 1) = i < 10 ? 0.0 : 1.0;
+    y[i] = (i < 10 ? i < 3 : i < 25) ? 1.0 : 0.0;
+  }
+  const LogisticModel model = FitLogistic(x, y, {true, true});
+  const double first = std::log(3.5 / 7.5);
+  const double second = std::log(15.5 / 5.5);
+  EXPECT_NEAR(model.coefficients[0], first, 1e-6);
+  EXPECT_NEAR(model.coefficients[1], second - first, 1e-6);
+}
+
+TEST(LogisticModel, StaysFiniteWhereAColumnSeparatesTheOutcomes) {
+  Eigen::MatrixXd x(20, 2);
+  Eigen::VectorXd y(20);
+  for (int i = 0; i < 20; ++i) {
+    x(i, 0) = 1.0;
+    x(i, 1) = i < 10 ? -1.0 : 1.0;
+    y[i] = i < 10 ? 0.0 : 1.0;
+  }
+  const LogisticModel model = FitLogistic(x, y, {true, true});
+  EXPECT_NEAR(model.coefficients[1], std::log(10.5 / 0.5), 1e-6);
+}
+
+TEST(LogisticModel, KeepsWhatIsNotFreeAtZero) {
+  Eigen::MatrixXd x(8, 2);
+  Eigen::VectorXd y(8);
+  for (int i = 0; i < 8; ++i) {
+    x(i, 0) = 1.0;
+    x(i, 1) = i % 2 == 0 ? -1.0 : 1.0;
+    y[i] = i < 6 ? 1.0 : 0.0;
+  }
+  const LogisticModel some = FitLogistic(x, y, {true, false});
+  EXPECT_EQ(some.coefficients[1], 0.0);
+  EXPECT_LE(some.log_likelihood, FitLogistic(x, y, {true, true}).log_likelihood + 1e-9);
+}
+
+TEST(LogisticModel, LeavesOutColumnsThatFollowFromOthers) {
+  Eigen::MatrixXd x(4, 4);
+  x << 1, 0, 1, 3,  //
+      1, 1, 0, 1,   //
+      1, 0, 1, 4,   //
+      1, 1, 0, 1;
+  EXPECT_EQ(IndependentColumns(x), (std::vector<std::size_t>{0, 1, 3}));
+}
+
+std::vector<double> OneTo(std::size_t num) {
+  std::vector<double> values(num);
+  std::iota(values.begin(), values.end(), 1.0);
+  return values;
+}
+
+// The published ranks: 0.9^29 < 0.05, and so on (MIL-HDBK-1823A, "29 of 29", "45 of 46").
+TEST(ToleranceLimit, HasThePublishedRanks) {
+  EXPECT_TRUE(std::isnan(LimitsExceededBy90Percent(OneTo(28)).low));
+  EXPECT_EQ(LimitsExceededBy90Percent(OneTo(29)).low, 1.0);
+  EXPECT_EQ(LimitsExceededBy90Percent(OneTo(45)).low, 1.0);
+  EXPECT_EQ(LimitsExceededBy90Percent(OneTo(46)).low, 2.0);
+  EXPECT_EQ(LimitsExceededBy90Percent(OneTo(60)).low, 2.0);
+  EXPECT_EQ(LimitsExceededBy90Percent(OneTo(61)).low, 3.0);
+}
+
+TEST(ToleranceLimit, HasNoneOfNoValues) {
+  EXPECT_TRUE(std::isnan(LimitsExceededBy90Percent({}).low));
+  EXPECT_TRUE(std::isnan(LimitsExceededBy90Percent({}).high));
+  EXPECT_TRUE(std::isnan(LimitsExceededBy90Percent({7.0}).high));
+  EXPECT_EQ(LimitsExceededBy90Percent({7.0, 8.0}).high, 8.0);
+}
+
+// By the definition of confidence. Of 2000 samples of 61, the share of wrong limits is that of the
+// binomial distribution, at most 5 %, within four standard deviations.
+TEST(ToleranceLimit, IsWrongInAtMostFiveOfAHundredSamples) {
+  constexpr int kNumSamples = 2000;
+  constexpr double kTruth = 0.1;  // What 90 % of uniform numbers exceed.
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> uniform;
+  int num_too_high = 0, num_too_low = 0;
+  for (int i = 0; i < kNumSamples; ++i) {
+    std::vector<double> values(61);
+    for (double& value : values) value = uniform(random);
+    const ToleranceLimits limits = LimitsExceededBy90Percent(values);
+    num_too_high += limits.low > kTruth ? 1 : 0;
+    num_too_low += limits.high < kTruth ? 1 : 0;
+  }
+  const double tolerance = 4.0 * std::sqrt(0.05 * 0.95 / kNumSamples);
+  EXPECT_LE(num_too_high, (0.05 + tolerance) * kNumSamples);
+  EXPECT_GE(num_too_high, 0.03 * kNumSamples);  // No idle width: P(Bin(61, 0.1) <= 2) = 0.0494.
+  EXPECT_LE(num_too_low, (0.05 + tolerance) * kNumSamples);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ class Window : public WindowTest {
     return camera;
   }
   /// Returns a screenshot of what the window should show, drawn at the first call: all later ones
-  /// have its bytes (determinism_test.cpp).
+  /// have its bytes (video_test.cpp).
   [[nodiscard]] const Picture& Expected(const std::string& options) {
     static std::map<std::string, Picture> drawn;
     if (!drawn.contains(options)) drawn.emplace(options, Draw(options + " " + path_));
