@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/program/version.h"
-#include "generator/live/live_health.h"
+#include "generator/live/live_control.h"
 #include "railcast/io/stream.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/live/live_process.h"

@@ -8,7 +8,7 @@
 #include "tests/core/io/message_of.h"
 #include "tests/viewer/composition/shared_clouds.h"
 #include "viewer/color/palette.h"
-#include "viewer/composition/compose.h"
+#include "viewer/composition/composer.h"
 
 namespace railcast {
 namespace {
