@@ -8,7 +8,7 @@
 namespace railcast {
 namespace {
 
-constexpr Endpoint kAnyLoopbackPort{0x7F000001, 0};
+constexpr Endpoint kAnyPort{0x7F000001, 0};
 constexpr Endpoint kLoopbackPeer{0x7F000001, 0};
 constexpr int kPatience_ms = 10'000;
 /// Long enough for a datagram to arrive over loopback.
@@ -27,12 +27,12 @@ class Controller {
   }
 
  private:
-  UdpReceiver port_{kAnyLoopbackPort};
+  UdpReceiver port_{kAnyPort};
   Endpoint channel_;
 };
 
 TEST(CommandChannel, AnswersACommandWhenItTookEffect) {
-  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  CommandChannel channel(kAnyPort, kLoopbackPeer);
   Controller controller(channel);
   controller.Say(
       "{\"session\": \"a\", \"id\": 7, \"command\": \"set_speed\", \"speed_mps\": 10}\n");
@@ -47,7 +47,7 @@ TEST(CommandChannel, AnswersACommandWhenItTookEffect) {
 }
 
 TEST(CommandChannel, TakesSeveralCommandsInOneDatagram) {
-  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  CommandChannel channel(kAnyPort, kLoopbackPeer);
   Controller controller(channel);
   controller.Say("{\"command\": \"stop\"}\n\n{\"command\": \"step\"}\n{\"command\": \"reset\"}");
   EXPECT_EQ(channel.Next(kPatience_ms)->command, Command(Stop{}));
@@ -57,7 +57,7 @@ TEST(CommandChannel, TakesSeveralCommandsInOneDatagram) {
 }
 
 TEST(CommandChannel, DoesARepeatedCommandOnceAndAnswersItEachTime) {
-  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  CommandChannel channel(kAnyPort, kLoopbackPeer);
   Controller controller(channel);
   const std::string step = "{\"session\": \"a\", \"id\": 1, \"command\": \"step\"}";
   controller.Say(step);
@@ -75,7 +75,7 @@ TEST(CommandChannel, DoesARepeatedCommandOnceAndAnswersItEachTime) {
 }
 
 TEST(CommandChannel, DoesTheCommandsOfAClientThatBeganAnewOnItsPort) {
-  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  CommandChannel channel(kAnyPort, kLoopbackPeer);
   Controller controller(channel);
   controller.Say(R"({"session": "before", "id": 1, "command": "stop"})");
   const auto before = channel.Next(kPatience_ms);
@@ -91,7 +91,7 @@ TEST(CommandChannel, DoesTheCommandsOfAClientThatBeganAnewOnItsPort) {
 }
 
 TEST(CommandChannel, TakesAnIdForOneCommandOfItsSession) {
-  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  CommandChannel channel(kAnyPort, kLoopbackPeer);
   Controller controller(channel);
   controller.Say(R"({"session": "a", "id": 1, "command": "step"})");
   const auto request = channel.Next(kPatience_ms);
@@ -111,7 +111,7 @@ TEST(CommandChannel, TakesAnIdForOneCommandOfItsSession) {
 }
 
 TEST(CommandChannel, DoesTheSameIdOfAnotherPort) {
-  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  CommandChannel channel(kAnyPort, kLoopbackPeer);
   Controller first(channel);
   Controller second(channel);
   first.Say("{\"session\": \"a\", \"id\": 1, \"command\": \"stop\"}");
@@ -121,7 +121,7 @@ TEST(CommandChannel, DoesTheSameIdOfAnotherPort) {
 }
 
 TEST(CommandChannel, SaysWhatIsWrongWithACommand) {
-  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  CommandChannel channel(kAnyPort, kLoopbackPeer);
   Controller controller(channel);
   controller.Say("{\"session\": \"a\", \"id\": 3, \"command\": \"set_speed\", \"speed_mps\": -1}");
   const std::string answer = controller.Hear();
@@ -131,7 +131,7 @@ TEST(CommandChannel, SaysWhatIsWrongWithACommand) {
 }
 
 TEST(CommandChannel, SaysWhyACommandHadNoEffect) {
-  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  CommandChannel channel(kAnyPort, kLoopbackPeer);
   Controller controller(channel);
   controller.Say(
       "{\"session\": \"a\", \"id\": 4, \"command\": \"remove_object\", \"name\": \"ghost\"}");
@@ -146,7 +146,7 @@ TEST(CommandChannel, SaysWhyACommandHadNoEffect) {
 
 TEST(CommandChannel, HearsNobodyButItsPeer) {
   constexpr Endpoint kElsewhere{0x7F000002, 0};
-  CommandChannel channel(kAnyLoopbackPort, kElsewhere);
+  CommandChannel channel(kAnyPort, kElsewhere);
   Controller stranger(channel);
   stranger.Say("{\"session\": \"a\", \"id\": 1, \"command\": \"stop\"}");
   EXPECT_EQ(stranger.Hear(kSilence_ms), "");
@@ -158,8 +158,8 @@ TEST(CommandChannel, HearsNobodyButItsPeer) {
 }
 
 TEST(CommandChannel, HearsOnlyThePortItWasTold) {
-  UdpReceiver peer(kAnyLoopbackPort);
-  CommandChannel channel(kAnyLoopbackPort, peer.at());
+  UdpReceiver peer(kAnyPort);
+  CommandChannel channel(kAnyPort, peer.at());
   Controller stranger(channel);
   stranger.Say("{\"command\": \"stop\"}");
   EXPECT_FALSE(channel.Next(kSilence_ms).has_value());
@@ -169,7 +169,7 @@ TEST(CommandChannel, HearsOnlyThePortItWasTold) {
 }
 
 TEST(CommandChannel, KeepsHearingAfterWhatIsNoCommand) {
-  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  CommandChannel channel(kAnyPort, kLoopbackPeer);
   Controller controller(channel);
   controller.Say(std::string(60'000, '['));
   controller.Say(std::string("\0\xff\xfe{\"id\":", 9));
@@ -180,7 +180,7 @@ TEST(CommandChannel, KeepsHearingAfterWhatIsNoCommand) {
 }
 
 TEST(CommandChannel, AnswersNoAnswer) {
-  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  CommandChannel channel(kAnyPort, kLoopbackPeer);
   Controller controller(channel);
   const std::vector<std::string> lines = {
       "{}", "dance", std::string(9000, '['), std::string(100, '\n') + std::string(200, 'x'),
@@ -205,7 +205,7 @@ TEST(CommandChannel, AnswersNoAnswer) {
 }
 
 TEST(CommandChannel, AnswersADatagramOfTooManyLinesOnce) {
-  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  CommandChannel channel(kAnyPort, kLoopbackPeer);
   Controller controller(channel);
   std::string many;
   for (int i = 0; i < 30'000; ++i) many += "x\n";
@@ -216,7 +216,7 @@ TEST(CommandChannel, AnswersADatagramOfTooManyLinesOnce) {
 }
 
 TEST(CommandChannel, KnowsACommandThatWaitsWhateverComesMeanwhile) {
-  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  CommandChannel channel(kAnyPort, kLoopbackPeer);
   Controller controller(channel);
   controller.Say("{\"session\": \"a\", \"id\": 1, \"command\": \"stop\"}");
   for (std::size_t id = 2; id < CommandChannel::kMaxAnswers + 10; ++id) {
@@ -230,7 +230,7 @@ TEST(CommandChannel, KnowsACommandThatWaitsWhateverComesMeanwhile) {
 }
 
 TEST(CommandChannel, RefusesMoreThanItCanHold) {
-  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  CommandChannel channel(kAnyPort, kLoopbackPeer);
   Controller controller(channel);
   std::string many;
   for (std::size_t i = 0; i < CommandChannel::kMaxLines; ++i) many += "{\"command\":\"stop\"}\n";

@@ -111,7 +111,7 @@ TEST(Distribution, NumbersHaveNineDigits) {
 
 using enum WeatherFamily;
 
-const std::vector<WeatherFamily> kAll = {kSunny, kFoggy, kRainy, kSnowy};
+const std::vector<WeatherFamily> kAllFamilies = {kSunny, kFoggy, kRainy, kSnowy};
 
 std::vector<double> AmountsOf(WeatherFamily family, const std::string& key) {
   std::vector<double> amounts;
@@ -123,21 +123,21 @@ std::vector<double> AmountsOf(WeatherFamily family, const std::string& key) {
 
 TEST(RandomWeather, IsOfEachFamilyEquallyOften) {
   std::map<WeatherFamily, int> counts;
-  for (std::uint32_t i = 0; i < 4000; ++i) ++counts[DrawWeather(1, i, kAll).family];
-  for (const WeatherFamily family : kAll) {
+  for (std::uint32_t i = 0; i < 4000; ++i) ++counts[DrawWeather(1, i, kAllFamilies).family];
+  for (const WeatherFamily family : kAllFamilies) {
     EXPECT_NEAR(counts[family], 1000, 4 * std::sqrt(4000 * 0.25 * 0.75)) << NameOf(family);
   }
 }
 
 TEST(RandomWeather, IsTheSameForTheSameSeedAndAnotherForAnother) {
-  EXPECT_EQ(DrawWeather(3, 5, kAll).section, DrawWeather(3, 5, kAll).section);
+  EXPECT_EQ(DrawWeather(3, 5, kAllFamilies).section, DrawWeather(3, 5, kAllFamilies).section);
   EXPECT_NE(DrawWeather(3, 5, {kFoggy}).section, DrawWeather(4, 5, {kFoggy}).section);
   EXPECT_NE(DrawWeather(3, 5, {kFoggy}).section, DrawWeather(3, 6, {kFoggy}).section);
 }
 
 TEST(RandomWeather, OfAFamilyDoesNotDependOnTheOthersToDrawFrom) {
   for (std::uint32_t i = 0; i < 100; ++i) {
-    const RandomWeather of_all = DrawWeather(1, i, kAll);
+    const RandomWeather of_all = DrawWeather(1, i, kAllFamilies);
     EXPECT_EQ(of_all.section, DrawWeather(1, i, {of_all.family}).section);
   }
 }

@@ -169,9 +169,9 @@ TEST(OsmPbf, IsRefusedIfItIsCutOff) {
   const std::filesystem::path file = directory.path() / "map.osm.pbf";
   const std::string whole = SmallPbf();
   WriteFileWhole(file, whole.substr(0, whole.size() - 20));
-  EXPECT_THAT(MessageOf([&] { static_cast<void>(ReadMap(file)); }),
-              HasSubstr("map.osm.pbf: must be "));
-  EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+  const std::string message = MessageOf([&] { static_cast<void>(ReadMap(file)); });
+  EXPECT_THAT(message, HasSubstr("map.osm.pbf: must be "));
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
 }
 
 /// Nodes 0 to 6 at longitudes 0 to 6; one way through all of them.
