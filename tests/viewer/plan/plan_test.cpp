@@ -19,7 +19,7 @@ namespace railcast {
 namespace {
 
 // Rounding of world coordinates below 1e6 m.
-constexpr double kRounding_m = 1e-8;
+constexpr double kPlanRounding_m = 1e-8;
 
 const Plan::Line* LineOf(const Plan& plan, const Rgb& rgb) {
   const auto found = std::ranges::find(plan.lines, rgb, &Plan::Line::rgb);
@@ -41,10 +41,10 @@ TEST(Plan, RunsFromLeftToRightWhereverTheLineLies) {
       MakePlan(scenario, *MakeWorld(scenario), {.from_s_m = 20'000.0, .to_s_m = 20'500.0});
   const Plan::Line* track = LineOf(plan, PlanTrackRgb(0));
   ASSERT_NE(track, nullptr);
-  EXPECT_LT(track->points_m.front().norm(), kRounding_m);
-  EXPECT_LT((track->points_m.back() - Eigen::Vector2d(500.0, 0.0)).norm(), kRounding_m);
+  EXPECT_LT(track->points_m.front().norm(), kPlanRounding_m);
+  EXPECT_LT((track->points_m.back() - Eigen::Vector2d(500.0, 0.0)).norm(), kPlanRounding_m);
   // North is 30 deg to the right of the line's direction.
-  const double tolerance = 2.0 * kRounding_m / 500.0;
+  const double tolerance = 2.0 * kPlanRounding_m / 500.0;
   EXPECT_NEAR(plan.north.x(), std::sqrt(0.75), tolerance);
   EXPECT_NEAR(plan.north.y(), -0.5, tolerance);
 }
@@ -58,8 +58,8 @@ TEST(Plan, FollowsTheCourseOfEveryTrack) {
     const PlanScene scene = ScenePlanned(yard.scenario, *yard.world, stretch);
     const auto points_m = PlanPoints(scene, course, {.from_s_m = 0.0, .to_s_m = 600.0}, 0.0);
     ASSERT_FALSE(points_m.empty()) << i;
-    EXPECT_NEAR(points_m.front().x(), std::max(course.begin_s_m(), 100.0) - 100.0, kRounding_m);
-    EXPECT_NEAR(points_m.back().x(), std::min(course.end_s_m(), 300.0) - 100.0, kRounding_m);
+    EXPECT_NEAR(points_m.front().x(), std::max(course.begin_s_m(), 100.0) - 100.0, kPlanRounding_m);
+    EXPECT_NEAR(points_m.back().x(), std::min(course.end_s_m(), 300.0) - 100.0, kPlanRounding_m);
     for (const Eigen::Vector2d& point_m : points_m) {
       // The line is straight: the offset is the height on the sheet.
       EXPECT_NEAR(point_m.y(), course.OffsetAt(point_m.x() + 100.0).d_m, 1e-6) << i;
@@ -86,7 +86,7 @@ TEST(Plan, MarksTurnoutsAsTheyAreSetWithTheirTipsAtTheBlades) {
   EXPECT_EQ(std::ranges::count(plan.marks, kPlanDivergingRgb, &Plan::Mark::rgb), 2);
   const auto first = std::ranges::find_if(plan.marks, is_turnout);
   ASSERT_NE(first, plan.marks.end());
-  EXPECT_LT((first->at_m - Eigen::Vector2d(kPlanMargin_m, 0.0)).norm(), kRounding_m);
+  EXPECT_LT((first->at_m - Eigen::Vector2d(kPlanMargin_m, 0.0)).norm(), kPlanRounding_m);
   EXPECT_GT(first->from_tip.x(), 0.99);
 }
 
@@ -108,13 +108,13 @@ TEST(Plan, DrawsStructuresWhereTheyStand) {
   ASSERT_NE(entry, plan.entries.end());
   const Plan::Line* line = LineOf(plan, entry->rgb);
   ASSERT_NE(line, nullptr);
-  EXPECT_LT((line->points_m.front() - Eigen::Vector2d(0.0, -4.5)).norm(), kRounding_m);
-  EXPECT_LT((line->points_m.back() - Eigen::Vector2d(100.0, -4.5)).norm(), kRounding_m);
+  EXPECT_LT((line->points_m.front() - Eigen::Vector2d(0.0, -4.5)).norm(), kPlanRounding_m);
+  EXPECT_LT((line->points_m.back() - Eigen::Vector2d(100.0, -4.5)).norm(), kPlanRounding_m);
   const auto relay_box = std::ranges::find(plan.entries, "relay box", &Plan::Entry::text);
   ASSERT_NE(relay_box, plan.entries.end());
   const auto mark = std::ranges::find(plan.marks, relay_box->rgb, &Plan::Mark::rgb);
   ASSERT_NE(mark, plan.marks.end());
-  EXPECT_LT((mark->at_m - Eigen::Vector2d(50.0, 4.0)).norm(), kRounding_m);
+  EXPECT_LT((mark->at_m - Eigen::Vector2d(50.0, 4.0)).norm(), kPlanRounding_m);
 }
 
 TEST(PlanStretch, ReachesFromBeforeTheFirstTurnoutToBehindTheLastTrack) {
