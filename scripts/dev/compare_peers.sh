@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Times other programs' ways of tracing rays beside railcast's, on the demo without plants and then
 # with all leaves as triangles: compare_peers.sh [SCENARIO]. Installs and builds what it needs and
-# prints two tables in Markdown, for docs/notes/embree.md. Takes ten minutes and 10 GB of memory; for
+# prints two tables in Markdown, for docs/results/embree.md. Takes ten minutes and 10 GB of memory; for
 # figures worth quoting nothing else may run on the machine.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
