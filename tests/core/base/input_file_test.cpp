@@ -112,7 +112,7 @@ TEST_F(UnreadFormats, StandInTheTableOfTheirPage) {
     return std::count_if(rows, {}, visit);
   };
   const std::regex row(R"(\| `(\.\w+)` \| ([^|\n]+) \| `?([^|`\n]+)`? \|)");
-  const auto num_rows = count("docs/recordings.md", row, [&](const std::smatch& found) {
+  const auto num_rows = count("docs/results/unread_formats.md", row, [&](const std::smatch& found) {
     const std::string file = "a" + found.str(1);
     std::string advice = std::regex_replace(found.str(3), std::regex("FILE"), file);
     advice = std::regex_replace(advice, std::regex("NAME"), "a");
