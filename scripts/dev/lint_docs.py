@@ -22,7 +22,7 @@ START = "docs/index.md"
 RESULTS = "docs/results"  # What was measured.
 GENERATED = ("docs/reference.md", "docs/records.md", "docs/remarks.md")  # From the descriptions of keys.
 # What a user reads: README and docs, without the generated reference and the results. The number only goes down.
-MOST_WORDS = {"the manual": 63_000}
+MOST_WORDS = {"the manual": 59_000}
 SITE = ("docs", "examples", "scenarios", "scripts")  # The folders whose pages and files the site has.
 NOT_OURS = ("build", "out", ".git")  # Folders whose pages are not part of the project.
 
