@@ -15,13 +15,13 @@ namespace railcast {
 namespace {
 
 /// A point where it is in the sensor's axes, and its label.
-struct MadePoint {
+struct GaugePoint {
   Vector3 place_m;
   std::uint32_t label{};
 };
 
 /// A frame of a sensor 2.5 m above the straight track at 500 m.
-RecordedFrame FrameAbove(const std::vector<MadePoint>& points) {
+RecordedFrame FrameAbove(const std::vector<GaugePoint>& points) {
   Frame frame;
   frame.Resize(1, static_cast<std::uint32_t>(points.size()), 1);
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -15,9 +15,9 @@ constexpr int kPatience_ms = 10'000;
 constexpr int kSilence_ms = 100;
 
 /// A peer that sends commands.
-class Controller {
+class ChannelController {
  public:
-  explicit Controller(const CommandChannel& channel) : channel_(channel.at()) {}
+  explicit ChannelController(const CommandChannel& channel) : channel_(channel.at()) {}
 
   void Say(const std::string& text) { port_.Answer(text, channel_); }
   /// Returns the next answer; empty if none comes.
@@ -33,7 +33,7 @@ class Controller {
 
 TEST(CommandChannel, AnswersACommandWhenItTookEffect) {
   CommandChannel channel(kAnyPort, kLoopbackPeer);
-  Controller controller(channel);
+  ChannelController controller(channel);
   controller.Say(
       "{\"session\": \"a\", \"id\": 7, \"command\": \"set_speed\", \"speed_mps\": 10}\n");
   const auto request = channel.Next(kPatience_ms);
@@ -48,7 +48,7 @@ TEST(CommandChannel, AnswersACommandWhenItTookEffect) {
 
 TEST(CommandChannel, TakesSeveralCommandsInOneDatagram) {
   CommandChannel channel(kAnyPort, kLoopbackPeer);
-  Controller controller(channel);
+  ChannelController controller(channel);
   controller.Say("{\"command\": \"stop\"}\n\n{\"command\": \"step\"}\n{\"command\": \"reset\"}");
   EXPECT_EQ(channel.Next(kPatience_ms)->command, Command(Stop{}));
   EXPECT_EQ(channel.Next(kPatience_ms)->command, Command(Step{}));
@@ -58,7 +58,7 @@ TEST(CommandChannel, TakesSeveralCommandsInOneDatagram) {
 
 TEST(CommandChannel, DoesARepeatedCommandOnceAndAnswersItEachTime) {
   CommandChannel channel(kAnyPort, kLoopbackPeer);
-  Controller controller(channel);
+  ChannelController controller(channel);
   const std::string step = "{\"session\": \"a\", \"id\": 1, \"command\": \"step\"}";
   controller.Say(step);
   controller.Say(step);
@@ -76,7 +76,7 @@ TEST(CommandChannel, DoesARepeatedCommandOnceAndAnswersItEachTime) {
 
 TEST(CommandChannel, DoesTheCommandsOfAClientThatBeganAnewOnItsPort) {
   CommandChannel channel(kAnyPort, kLoopbackPeer);
-  Controller controller(channel);
+  ChannelController controller(channel);
   controller.Say(R"({"session": "before", "id": 1, "command": "stop"})");
   const auto before = channel.Next(kPatience_ms);
   ASSERT_TRUE(before.has_value());
@@ -92,7 +92,7 @@ TEST(CommandChannel, DoesTheCommandsOfAClientThatBeganAnewOnItsPort) {
 
 TEST(CommandChannel, TakesAnIdForOneCommandOfItsSession) {
   CommandChannel channel(kAnyPort, kLoopbackPeer);
-  Controller controller(channel);
+  ChannelController controller(channel);
   controller.Say(R"({"session": "a", "id": 1, "command": "step"})");
   const auto request = channel.Next(kPatience_ms);
   ASSERT_TRUE(request.has_value());
@@ -112,8 +112,8 @@ TEST(CommandChannel, TakesAnIdForOneCommandOfItsSession) {
 
 TEST(CommandChannel, DoesTheSameIdOfAnotherPort) {
   CommandChannel channel(kAnyPort, kLoopbackPeer);
-  Controller first(channel);
-  Controller second(channel);
+  ChannelController first(channel);
+  ChannelController second(channel);
   first.Say("{\"session\": \"a\", \"id\": 1, \"command\": \"stop\"}");
   second.Say("{\"session\": \"a\", \"id\": 1, \"command\": \"stop\"}");
   EXPECT_TRUE(channel.Next(kPatience_ms).has_value());
@@ -122,7 +122,7 @@ TEST(CommandChannel, DoesTheSameIdOfAnotherPort) {
 
 TEST(CommandChannel, SaysWhatIsWrongWithACommand) {
   CommandChannel channel(kAnyPort, kLoopbackPeer);
-  Controller controller(channel);
+  ChannelController controller(channel);
   controller.Say("{\"session\": \"a\", \"id\": 3, \"command\": \"set_speed\", \"speed_mps\": -1}");
   const std::string answer = controller.Hear();
   EXPECT_EQ(answer.find("{\"ok\":false,\"session\":\"a\",\"id\":3,\"faults\":["), 0U) << answer;
@@ -132,7 +132,7 @@ TEST(CommandChannel, SaysWhatIsWrongWithACommand) {
 
 TEST(CommandChannel, SaysWhyACommandHadNoEffect) {
   CommandChannel channel(kAnyPort, kLoopbackPeer);
-  Controller controller(channel);
+  ChannelController controller(channel);
   controller.Say(
       "{\"session\": \"a\", \"id\": 4, \"command\": \"remove_object\", \"name\": \"ghost\"}");
   const auto request = channel.Next(kPatience_ms);
@@ -147,7 +147,7 @@ TEST(CommandChannel, SaysWhyACommandHadNoEffect) {
 TEST(CommandChannel, HearsNobodyButItsPeer) {
   constexpr Endpoint kElsewhere{0x7F000002, 0};
   CommandChannel channel(kAnyPort, kElsewhere);
-  Controller stranger(channel);
+  ChannelController stranger(channel);
   stranger.Say("{\"session\": \"a\", \"id\": 1, \"command\": \"stop\"}");
   EXPECT_EQ(stranger.Hear(kSilence_ms), "");
   EXPECT_FALSE(channel.Next(0).has_value());
@@ -160,7 +160,7 @@ TEST(CommandChannel, HearsNobodyButItsPeer) {
 TEST(CommandChannel, HearsOnlyThePortItWasTold) {
   UdpReceiver peer(kAnyPort);
   CommandChannel channel(kAnyPort, peer.at());
-  Controller stranger(channel);
+  ChannelController stranger(channel);
   stranger.Say("{\"command\": \"stop\"}");
   EXPECT_FALSE(channel.Next(kSilence_ms).has_value());
   const std::string stop = "{\"command\": \"stop\"}";
@@ -170,7 +170,7 @@ TEST(CommandChannel, HearsOnlyThePortItWasTold) {
 
 TEST(CommandChannel, KeepsHearingAfterWhatIsNoCommand) {
   CommandChannel channel(kAnyPort, kLoopbackPeer);
-  Controller controller(channel);
+  ChannelController controller(channel);
   controller.Say(std::string(60'000, '['));
   controller.Say(std::string("\0\xff\xfe{\"id\":", 9));
   controller.Say(std::string(30'000, '\n'));
@@ -181,7 +181,7 @@ TEST(CommandChannel, KeepsHearingAfterWhatIsNoCommand) {
 
 TEST(CommandChannel, AnswersNoAnswer) {
   CommandChannel channel(kAnyPort, kLoopbackPeer);
-  Controller controller(channel);
+  ChannelController controller(channel);
   const std::vector<std::string> lines = {
       "{}", "dance", std::string(9000, '['), std::string(100, '\n') + std::string(200, 'x'),
       R"({"session": "a", "id": 1, "command": "set_weather", "weather": {"zz": 1}})"};
@@ -206,7 +206,7 @@ TEST(CommandChannel, AnswersNoAnswer) {
 
 TEST(CommandChannel, AnswersADatagramOfTooManyLinesOnce) {
   CommandChannel channel(kAnyPort, kLoopbackPeer);
-  Controller controller(channel);
+  ChannelController controller(channel);
   std::string many;
   for (int i = 0; i < 30'000; ++i) many += "x\n";
   controller.Say(many);
@@ -217,7 +217,7 @@ TEST(CommandChannel, AnswersADatagramOfTooManyLinesOnce) {
 
 TEST(CommandChannel, KnowsACommandThatWaitsWhateverComesMeanwhile) {
   CommandChannel channel(kAnyPort, kLoopbackPeer);
-  Controller controller(channel);
+  ChannelController controller(channel);
   controller.Say("{\"session\": \"a\", \"id\": 1, \"command\": \"stop\"}");
   for (std::size_t id = 2; id < CommandChannel::kMaxAnswers + 10; ++id) {
     controller.Say("{\"session\": \"a\", \"id\": " + std::to_string(id) +
@@ -231,7 +231,7 @@ TEST(CommandChannel, KnowsACommandThatWaitsWhateverComesMeanwhile) {
 
 TEST(CommandChannel, RefusesMoreThanItCanHold) {
   CommandChannel channel(kAnyPort, kLoopbackPeer);
-  Controller controller(channel);
+  ChannelController controller(channel);
   std::string many;
   for (std::size_t i = 0; i < CommandChannel::kMaxLines; ++i) many += "{\"command\":\"stop\"}\n";
   for (std::size_t i = 0; i < CommandChannel::kMaxRequests; i += CommandChannel::kMaxLines) {

@@ -27,16 +27,16 @@ using testing::ElementsAre;
 using testing::FloatNear;
 using testing::IsNan;
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
 // The points are float32, at most 50 m from the origin of their axes: 4e-6 m; chainages of 500 m
 // are stored to 3e-5 m.
 constexpr float kFloat_m = 1e-4F;
 
-/// Where the points of MadeFrame() are on the straight track: chainage, lateral and height. The
-/// fourth slot has none.
+/// Where the points of MadeTrackFrame() are on the straight track: chainage, lateral and height.
+/// The fourth slot has none.
 const std::vector<Vector3> kPlaces_m = {{510.0, 0.0, 1.0}, {512.0, -1.5, 0.5}, {514.0, 3.0, 2.0}};
 
-/// The output as the points of MadeFrame() are in.
+/// The output as the points of MadeTrackFrame() are in.
 struct MadeAxes {
   OutputSpec output;
   Transform vehicle_from_sensor =
@@ -44,7 +44,7 @@ struct MadeAxes {
 };
 
 /// A scan of 0.1 s by a sensor that moves from 500 to 504 m, with a point every 25 ms.
-Frame MadeFrame(const MadeAxes& axes) {
+Frame MadeTrackFrame(const MadeAxes& axes) {
   Frame frame;
   frame.Resize(1, 4, 1);
   frame.duration_ns = 100'000'000;
@@ -54,7 +54,7 @@ Frame MadeFrame(const MadeAxes& axes) {
   frame.world_from_sensor = world_from_vehicle(0.0) * axes.vehicle_from_sensor;
   frame.world_from_sensor_end = world_from_vehicle(1.0) * axes.vehicle_from_sensor;
   for (std::size_t slot = 0; slot < 4; ++slot) {
-    frame.x[slot] = frame.y[slot] = frame.z[slot] = kNaN;
+    frame.x[slot] = frame.y[slot] = frame.z[slot] = kNotANumber;
     frame.outcome[slot] = Outcome::kNoSurface;
     if (slot == kPlaces_m.size()) continue;
     const double share = 0.25 * static_cast<double>(slot);
@@ -97,7 +97,7 @@ void ExpectMadePlaces(const TrackFields& fields) {
 
 TEST(TrackFields, AreOfThePlaceWhereEachFiringMetItsSurface) {
   const MadeAxes axes;
-  ExpectMadePlaces(TrackFieldsOf(MadeFrame(axes), *TrackOf(axes)));
+  ExpectMadePlaces(TrackFieldsOf(MadeTrackFrame(axes), *TrackOf(axes)));
 }
 
 TEST(TrackFields, AreTheSameInAllAxesOfTheOutput) {
@@ -108,7 +108,7 @@ TEST(TrackFields, AreTheSameInAllAxesOfTheOutput) {
       axes.output = {.frame = frame, .handedness = handedness};
       if (frame == OutputFrame::kWorld) axes.output.origin_m = {480.0, 2.0, -1.0};
       // The origin is subtracted before y is negated.
-      ExpectMadePlaces(TrackFieldsOf(MadeFrame(axes), *TrackOf(axes)));
+      ExpectMadePlaces(TrackFieldsOf(MadeTrackFrame(axes), *TrackOf(axes)));
     }
   }
 }
@@ -123,7 +123,7 @@ TEST(TrackFields, AreReadFromPcdFilesByPcl) {
   for (const PcdEncoding encoding :
        {PcdEncoding::kBinary, PcdEncoding::kBinaryCompressed, PcdEncoding::kAscii}) {
     const WrittenFile file(
-        "frame.pcd", PcdBytes(MadeFrame({}), Selected("x,y,z,in_gauge,chainage_m"), encoding));
+        "frame.pcd", PcdBytes(MadeTrackFrame({}), Selected("x,y,z,in_gauge,chainage_m"), encoding));
     const auto cloud = PclReads(file.path());
     EXPECT_EQ(pcl::getFieldsList(cloud), "x y z chainage_m in_gauge");
     EXPECT_EQ(cloud.fields[3].datatype, pcl::PCLPointField::FLOAT32);
@@ -137,8 +137,8 @@ TEST(TrackFields, AreReadFromPcdFilesByPcl) {
 
 TEST(TrackFields, ComeThroughFilesAsFurtherFieldsOfRecordings) {
   const FieldSelection fields = Selected("x,y,z,track_lateral_m,in_gauge");
-  const WrittenFile pcd("a.pcd", PcdBytes(MadeFrame({}), fields));
-  const WrittenFile ply("a.ply", PlyBytes(MadeFrame({}), fields, PlyFlavour::kCloudCompare));
+  const WrittenFile pcd("a.pcd", PcdBytes(MadeTrackFrame({}), fields));
+  const WrittenFile ply("a.ply", PlyBytes(MadeTrackFrame({}), fields, PlyFlavour::kCloudCompare));
   for (const WrittenFile* const file : {&pcd, &ply}) {
     const auto frames = ReadAll(file->path());
     ASSERT_EQ(frames.size(), 1U);
@@ -155,7 +155,7 @@ TEST(TrackFields, ComeThroughFilesAsFurtherFieldsOfRecordings) {
 
 TEST(TrackFields, AreFieldsOfMessages) {
   const ros::CloudSpec spec{ros::PointLayout::kRailcast, Selected("x,y,z,track_height_m")};
-  const ros::PointCloud2 message = ros::MakeCloud(MadeFrame({}), spec, "lidar");
+  const ros::PointCloud2 message = ros::MakeCloud(MadeTrackFrame({}), spec, "lidar");
   ASSERT_EQ(message.fields.size(), 4U);
   EXPECT_EQ(message.fields[3].name, "track_height_m");
   float height_m = 0.0F;
