@@ -95,7 +95,7 @@ TEST(DatasetSection, SaysHowManyFramesAreEmpty) {
 }
 
 /// A frame of points, each with its range in metres and its label.
-RecordedFrame FrameOf(const std::vector<std::pair<float, std::uint32_t>>& points) {
+RecordedFrame FrameOfRanges(const std::vector<std::pair<float, std::uint32_t>>& points) {
   Frame frame;
   frame.Resize(1, static_cast<std::uint32_t>(points.size()), 1);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -109,8 +109,8 @@ constexpr float kNoPoint = std::numeric_limits<float>::quiet_NaN();
 
 ClassBalance MadeBalance() {
   ClassBalance balance;
-  balance.Add(FrameOf({{9.5F, 1}, {10.0F, 1}, {10.5F, 2}, {kNoPoint, 2}, {12.0F, 1}}));
-  balance.Add(FrameOf({{200.0F, 3}, {199.0F, 1}, {kNoPoint, 4}}));
+  balance.Add(FrameOfRanges({{9.5F, 1}, {10.0F, 1}, {10.5F, 2}, {kNoPoint, 2}, {12.0F, 1}}));
+  balance.Add(FrameOfRanges({{200.0F, 3}, {199.0F, 1}, {kNoPoint, 4}}));
   return balance;
 }
 
@@ -176,7 +176,7 @@ TEST(ClassBalance, OfPartsIsThatOfTheWhole) {
 }
 
 TEST(ClassBalance, LeavesOutFramesWithoutLabels) {
-  RecordedFrame recorded = FrameOf({{5.0F, 1}});
+  RecordedFrame recorded = FrameOfRanges({{5.0F, 1}});
   recorded.fields.erase("label");
   ClassBalance balance;
   balance.Add(recorded);
