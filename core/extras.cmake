@@ -135,6 +135,18 @@ function(railcast_gather_extras library header type)
   target_link_libraries(${library} PRIVATE railcast::core $<BUILD_INTERFACE:railcast_internal> ${libraries})
 endfunction()
 
+# railcast_leave_out_extras(TARGET [HEADER TYPE]...): gives a program registries in which there is nothing, whatever extras the
+# build has: its own definitions of TYPE::Get() come before those of the libraries.
+function(railcast_leave_out_extras target)
+  set(registries ${ARGN})
+  while(registries)
+    list(POP_FRONT registries header type)
+    set(source ${PROJECT_BINARY_DIR}/registries/${target}_${type}.cpp)
+    railcast_define_registry(${source} ${header} ${type})
+    target_sources(${target} PRIVATE ${source})
+  endwhile()
+endfunction()
+
 # railcast_install_program(TARGET [HEADER TYPE]...): installs a program of the product. Where the build has extras, there are two
 # of it: the target, in libexec for the component extras, and one in whose registries (railcast_gather_extras()) there is
 # nothing, which runs the former where it is installed (ProgramMain()).
@@ -147,13 +159,7 @@ function(railcast_install_program target)
   install(TARGETS ${target} DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/railcast COMPONENT extras)
   set(product ${target}-product)
   add_executable(${product} $<TARGET_OBJECTS:${target}>)
-  set(registries ${ARGN})
-  while(registries)
-    list(POP_FRONT registries header type)
-    set(source ${PROJECT_BINARY_DIR}/registries/${product}_${type}.cpp)
-    railcast_define_registry(${source} ${header} ${type})
-    target_sources(${product} PRIVATE ${source})
-  endwhile()
+  railcast_leave_out_extras(${product} ${ARGN})
   target_precompile_headers(${product} REUSE_FROM railcast_core)
   get_target_property(libraries ${target} LINK_LIBRARIES)
   target_link_libraries(${product} PRIVATE ${libraries})

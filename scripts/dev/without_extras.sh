@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds and tests the tree as it is without its extras: without_extras.sh [--configure] FOLDER [EXTRA...]
 #
-# Copies what git knows of the tree, but for the folders of extras, into FOLDER; then configures, builds and runs the
+# Copies the tree into FOLDER, but for builds, outputs and the folders of extras; then configures, builds and runs the
 # tests there. Extras that are named, such as core/packets, are kept, and so must be those that they use. With --configure
 # nothing is built.
 set -euo pipefail
@@ -27,10 +27,13 @@ kept=${kept#|}
 
 mkdir -p "$folder"
 cd "$tree"
+files() {
+  find . \( -path ./build -o -path ./out -o -path ./.git \) -prune -o ! -type d -printf '%P\n'
+}
 {
-  git ls-files --cached --others --exclude-standard | grep -v -E '^(tests/)?(core|generator|analysis)/extras/'
+  files | grep -v -E '^(tests/)?(core|generator|analysis)/extras/'
   if (($# > 0)); then
-    git ls-files --cached --others --exclude-standard | grep -E "^(tests/)?($kept)|/extras/[^/]*$"
+    files | grep -E "^(tests/)?($kept)|/extras/[^/]*$"
   fi
 } | tar -c --files-from - | tar -x --directory "$folder"
 cmake -S "$folder" -B "$folder/build" -G Ninja --log-level=NOTICE -D CMAKE_BUILD_TYPE=RelWithDebInfo \
