@@ -1,8 +1,8 @@
 """Which command takes what which command makes: makers_takers.py BUILD_DIR [--write].
 
 Makes one small recording of each kind by the runs of scripts/dev/small_runs.py and gives it to every command that takes
-recordings. Each must work, or refuse it in one line that says what is missing. The table in docs/recordings.md must be
-what was found; --write writes it. Ends with 77 if what draws on a server is not installed.
+recordings. Each must work, or refuse it in one line that says what is missing. The table in
+docs/results/makers_and_takers.md must be what was found; --write writes it. Ends with 77 if what draws on a server is not installed.
 """
 
 import concurrent.futures
