@@ -51,11 +51,11 @@ FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) 
   BegunFrame begun = parts.Begin(frame_index);
   const FrameScene& scene = parts.SceneOf(begun);
   const FiringTiles& firings = parts.TilesOf(begun);
-  const CastFrame cast = parts.CastOf(scene, firings);
+  const CastFrame cast = parts.CastOf(*parts.own, scene, firings);
   const FiringTiles::Place place = firings.PlaceOf(firing);
   const std::size_t tile = place.tile;
   const std::size_t lane = place.lane;
-  BeamTracer::Work work(*parts.tracer);
+  BeamTracer::Work work(*parts.own->tracer);
   DetectTile& first = work.echoes.first;
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   for (float* unknown : {first.intensity, first.power_ratio, first.range_m}) {
@@ -74,19 +74,19 @@ FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) 
                            .range_m = first.range_m[lane],
                            .num_added_echoes = num_echoes - num_before});
   };
-  parts.tracer->MakeEchoes(cast, firings, tile, work, record);
+  parts.own->tracer->MakeEchoes(cast, firings, tile, work, record);
   const RayTile& rays = work.rays;
-  if (parts.halo) {
-    parts.halo->AddEchoes(work.echoes, parts.FindHaloSources(cast, firings));
+  if (parts.own->halo) {
+    parts.own->halo->AddEchoes(work.echoes, parts.FindHaloSources(cast, firings));
     record(EffectBetweenBeams(spec().detector)->name);
   }
   const Transform world_from_window = scene.window->window_from_world.inverse();
   const double time_s = SecondsFromNs(parts.pattern.StampNs(frame_index));
-  parts.tracer->detector().Detect({rays, world_from_window, time_s}, work.echoes, record);
+  parts.own->tracer->detector().Detect({rays, world_from_window, time_s}, work.echoes, record);
   const Surface& surface = scene.surfaces()[first.surface[lane]];
   story.firing = firing;
   story.time_ns = firings.times_ns(tile)[lane];
-  story.slot = firings.slots(tile)[lane] * NumReturns(parts.return_mode());
+  story.slot = firings.slots(tile)[lane] * NumReturns(parts.own->return_mode());
   story.direction_sensor = Vector3(static_cast<double>(first.direction_x[lane]),
                                    static_cast<double>(first.direction_y[lane]),
                                    static_cast<double>(first.direction_z[lane]));
@@ -97,7 +97,7 @@ FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) 
   story.instance = surface.instance;
   story.material = surface.material;
   story.reflectivity = surface.reflectivity;
-  TellEchoes(scene.surfaces(), parts.return_rule(), lane, work.echoes, story);
+  TellEchoes(scene.surfaces(), parts.own->return_rule(), lane, work.echoes, story);
   return story;
 }
 

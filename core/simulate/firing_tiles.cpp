@@ -31,6 +31,23 @@ FiringTiles::FiringTiles(const ScanPattern& pattern, std::vector<std::uint32_t> 
   for (const std::uint32_t i : order) Append(pattern, i);
 }
 
+FiringTiles FiringTiles::OfCells(const ScanPattern& pattern, std::span<const std::uint32_t> cells) {
+  std::vector<bool> is_wanted(pattern.num_firings());
+  for (const std::uint32_t cell : cells) is_wanted[cell] = true;
+  std::vector<std::uint32_t> order;
+  std::vector<std::uint32_t> slots;
+  for (std::uint32_t i = 0; i < pattern.num_firings(); ++i) {
+    const std::uint32_t cell = pattern.row[i] * pattern.columns + pattern.column[i];
+    if (!is_wanted[cell]) continue;
+    order.push_back(i);
+    const auto at = std::ranges::lower_bound(cells, cell);
+    slots.push_back(static_cast<std::uint32_t>(at - cells.begin()));
+  }
+  FiringTiles tiles(pattern, std::move(order));
+  std::ranges::copy(slots, tiles.slot_.begin());
+  return tiles;
+}
+
 void FiringTiles::Append(const ScanPattern& pattern, std::uint32_t firing) {
   const std::uint32_t i = firing;
   firing_.push_back(i);
@@ -165,7 +182,7 @@ void FiringTiles::Aim(std::size_t tile,
 
 void FiringTiles::Describe(std::size_t tile, DetectTile& detect) const {
   const std::size_t begin = tile * kTileSize;
-  detect.num_rays = std::min(kTileSize, firing_.size() - begin);
+  detect.num_rays = num_firings(tile);
   std::copy_n(&firing_[begin], detect.num_rays, detect.firing);
   std::copy_n(&x_[begin], detect.num_rays, detect.direction_x);
   std::copy_n(&y_[begin], detect.num_rays, detect.direction_y);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/detect/base/detect_tile.h"
@@ -20,6 +21,11 @@ class FiringTiles {
   /// Some firings of a pattern, whose other cells need not have any.
   /// @param order Indices of the firings in tracing order, each once.
   FiringTiles(const ScanPattern& pattern, std::vector<std::uint32_t> order);
+  /// The firings of some cells (row * columns + column) for a frame that holds these alone, in the
+  /// order of the cells.
+  /// @param cells By rising number; not empty.
+  [[nodiscard]] static FiringTiles OfCells(const ScanPattern& pattern,
+                                           std::span<const std::uint32_t> cells);
 
   [[nodiscard]] std::size_t num_tiles() const {
     return (firing_.size() + kTileSize - 1) / kTileSize;

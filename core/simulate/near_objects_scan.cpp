@@ -44,7 +44,7 @@ void Simulator::ScanNearObjects(BegunFrame& begun,
                                 Frame& frame) {
   Parts& parts = *parts_;
   // A halo reaches any beam.
-  if (parts.halo) return Scan(begun, frame);
+  if (parts.own->halo) return Scan(begun, frame);
   WithinMemory(parts.Making(begun.index), [&] {
     const ScanPattern of_frame =
         parts.pattern.repeats() ? ScanPattern() : PatternOfFrame(parts.pattern, begun.index);
@@ -58,12 +58,13 @@ void Simulator::ScanNearObjects(BegunFrame& begun,
     const FiringTiles& all = parts.TilesOf(begun);
     frame.has_velocity = parts.spec.detector.velocity.has_value();
     parts.Prepare(begun.index, all, frame);
+    frame.Resize(pattern.rows, pattern.columns, NumReturns(parts.own->return_mode()));
     ClearSlots(frame);
     std::vector<std::uint32_t> order = PacketsWith(pattern, is_near);
     if (!order.empty()) {
       const FiringTiles firings(pattern, std::move(order));
       const FrameScene& scene = parts.SceneOf(begun);
-      parts.Fill(parts.CastOf(scene, firings), firings, frame);
+      parts.Fill(*parts.own, parts.CastOf(*parts.own, scene, firings), firings, frame);
     }
     all.StoreConstants(frame);
   });

@@ -82,9 +82,9 @@ Simulator::Simulator(std::shared_ptr<SceneStore> store,
                          .materials = materials.materials(),
                          .tiles = std::move(tiles),
                          .scenes{std::move(store), scene_spec},
-                         .tracer{},
-                         .work{},
-                         .halo{},
+                         .own{},
+                         .variants{},
+                         .others{},
                          .parallelism{},
                          .arena{}});
   parts_->UseSpec();
@@ -120,16 +120,23 @@ std::size_t Simulator::num_threads() const {
   return static_cast<std::size_t>(parts_->arena.max_concurrency());
 }
 
+Detection::Detection(const SimulatorSpec& spec,
+                     const std::vector<Material>& materials,
+                     const ScanPattern& pattern)
+    : detector(spec.detector),
+      tracer(std::make_unique<const BeamTracer>(spec, materials, pattern)),
+      work(std::make_unique<WorkOfThreads>(
+          [tracer = tracer.get()] { return BeamTracer::Work(*tracer); })) {
+  if (EffectBetweenBeams(detector) != nullptr) halo.emplace(detector);
+}
+
 void Simulator::Parts::UseSpec() {
-  tracer = std::make_unique<const BeamTracer>(spec, materials, pattern);
-  work = std::make_unique<WorkOfThreads>(
-      [tracer = tracer.get()] { return BeamTracer::Work(*tracer); });
-  if (tracer->casts_beams()) scenes.UseBeams();
+  own.emplace(spec, materials, pattern);
+  if (own->tracer->casts_beams()) scenes.UseBeams();
   const DetectorSpec& detector = spec.detector;
   scenes.UseWind(Wind(WindVelocity_mps(detector.weather), detector.air_seed));
   scenes.UseMotion(detector.velocity.has_value());
-  halo.reset();
-  if (EffectBetweenBeams(detector) != nullptr) halo.emplace(detector);
+  UseVariants();
 }
 
 const SimulatorSpec& Simulator::spec() const {
@@ -158,41 +165,44 @@ void Simulator::UseLastStamp(std::int64_t stamp_ns) {
   parts_->scenes.UseLastStamp(stamp_ns);
 }
 
-CastFrame Simulator::Parts::CastOf(const FrameScene& scene, const FiringTiles& firings) const {
+CastFrame Simulator::Parts::CastOf(const Detection& by,
+                                   const FrameScene& scene,
+                                   const FiringTiles& firings) const {
   CastFrame cast{scene.index,      scene.poses,    scene,
                  scene.surfaces(), &scene.wires(), scene.window->window_from_world};
-  if (spec.detector.effects.spray && HasSpray(spec.detector)) {
-    cast.spray = SprayCloudsOf(scenes.world(), spec.detector.weather,
+  if (by.detector.effects.spray && HasSpray(by.detector)) {
+    cast.spray = SprayCloudsOf(scenes.world(), by.detector.weather,
                                {scene.stamp_ns, firings.duration_ns()}, cast.window_from_world);
   }
-  cast.mirrors = tracer->MirrorsAmong(cast.surfaces, cast.window_from_world);
+  cast.mirrors = by.tracer->MirrorsAmong(cast.surfaces, cast.window_from_world);
   cast.takes_no_rays = true;
   if (scene.motion) cast.motion = &*scene.motion;
   return cast;
 }
 
-void Simulator::Parts::ForAllEchoes(const CastFrame& cast,
+void Simulator::Parts::ForAllEchoes(const Detection& by,
+                                    const CastFrame& cast,
                                     const FiringTiles& firings,
                                     ViewCounter* views,
                                     const EchoUse& use) {
   // A halo reaches beams of other tiles. Without bright echoes, which are rare, all is done after
   // one pass; otherwise the tiles that halos reach are made a second time.
-  std::vector<std::vector<HaloSource>> found(halo ? firings.num_tiles() : 0);
+  std::vector<std::vector<HaloSource>> found(by.halo ? firings.num_tiles() : 0);
   ForEachTile(firings.num_tiles(), [&](std::size_t tile) {
-    BeamTracer::Work& mine = work->local();
-    tracer->MakeEchoes(cast, firings, tile, mine);
-    if (halo) halo->CollectSources(mine.echoes, found[tile]);
+    BeamTracer::Work& mine = by.work->local();
+    by.tracer->MakeEchoes(cast, firings, tile, mine);
+    if (by.halo) by.halo->CollectSources(mine.echoes, found[tile]);
     use(tile, mine);
-    if (views != nullptr) views->AddTraced(*tracer, firings, tile, mine);
+    if (views != nullptr) views->AddTraced(*by.tracer, firings, tile, mine);
   });
   const std::vector<HaloSource> sources = Joined(found);
   if (sources.empty()) return;
   ForEachTile(firings.num_tiles(), [&](std::size_t tile) {
-    BeamTracer::Work& mine = work->local();
+    BeamTracer::Work& mine = by.work->local();
     firings.Describe(tile, mine.echoes.first);
-    if (!halo->Reaches(mine.echoes.first, sources)) return;
-    tracer->MakeEchoes(cast, firings, tile, mine);
-    halo->AddEchoes(mine.echoes, sources);
+    if (!by.halo->Reaches(mine.echoes.first, sources)) return;
+    by.tracer->MakeEchoes(cast, firings, tile, mine);
+    by.halo->AddEchoes(mine.echoes, sources);
     use(tile, mine);
   });
 }
@@ -201,9 +211,9 @@ std::vector<HaloSource> Simulator::Parts::FindHaloSources(const CastFrame& cast,
                                                           const FiringTiles& firings) {
   std::vector<std::vector<HaloSource>> found(firings.num_tiles());
   ForEachTile(firings.num_tiles(), [&](std::size_t tile) {
-    BeamTracer::Work& mine = work->local();
-    tracer->MakeEchoes(cast, firings, tile, mine);
-    halo->CollectSources(mine.echoes, found[tile]);
+    BeamTracer::Work& mine = own->work->local();
+    own->tracer->MakeEchoes(cast, firings, tile, mine);
+    own->halo->CollectSources(mine.echoes, found[tile]);
   });
   return Joined(found);
 }
@@ -219,24 +229,24 @@ void Simulator::Parts::Prepare(std::uint32_t frame_index,
   frame.poses_between = PosesBetween(frame.duration_ns, [&](std::uint32_t time_ns) {
     return ReportedPose(frame.stamp_ns + time_ns);
   });
-  frame.Resize(pattern.rows, pattern.columns, NumReturns(return_mode()));
 }
 
-void Simulator::Parts::Fill(const CastFrame& cast,
+void Simulator::Parts::Fill(const Detection& by,
+                            const CastFrame& cast,
                             const FiringTiles& firings,
                             Frame& frame,
                             ViewCounter* views) {
   const OutputAxes axes(spec.output, spec.origin_place,
                         {spec.vehicle_from_sensor, spec.nominal_from_true.inverse()},
                         cast.window_from_world, frame.world_from_sensor);
-  const ReturnStore store(return_rule(), tracer->has_beams());
+  const ReturnStore store(by.return_rule(), by.tracer->has_beams());
   const Transform world_from_window = cast.window_from_world.inverse();
   const double time_s = SecondsFromNs(frame.stamp_ns);
   std::optional<VelocityMeter> velocities;
-  if (frame.has_velocity) velocities.emplace(spec.detector, cast);
+  if (frame.has_velocity) velocities.emplace(by.detector, cast);
 
-  ForAllEchoes(cast, firings, views, [&](std::size_t tile, BeamTracer::Work& mine) {
-    tracer->detector().Detect({mine.rays, world_from_window, time_s}, mine.echoes);
+  ForAllEchoes(by, cast, firings, views, [&](std::size_t tile, BeamTracer::Work& mine) {
+    by.tracer->detector().Detect({mine.rays, world_from_window, time_s}, mine.echoes);
     firings.MoveToOrigins(tile, mine.echoes);
     axes.Apply(cast.poses, firings.times_ns(tile), mine.echoes);
     StoredEcho measure;
@@ -248,7 +258,7 @@ void Simulator::Parts::Fill(const CastFrame& cast,
     store.Store(mine.echoes, cast.surfaces, {firings.slots(tile), firings.num_firings(tile)}, frame,
                 measure);
   });
-  if (!tracer->has_beams()) {
+  if (!by.tracer->has_beams()) {
     constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
     std::fill(frame.footprint_share.begin(), frame.footprint_share.end(), kNaN);
     std::fill(frame.mixed_share.begin(), frame.mixed_share.end(), kNaN);
@@ -262,7 +272,8 @@ void Simulator::Parts::Scan(const CastFrame& cast,
   // A host does not say how its things move.
   frame.has_velocity = cast.motion != nullptr;
   Prepare(cast.index, firings, frame);
-  Fill(cast, firings, frame, views);
+  frame.Resize(pattern.rows, pattern.columns, NumReturns(own->return_mode()));
+  Fill(*own, cast, firings, frame, views);
   firings.StoreConstants(frame);
 }
 
@@ -275,7 +286,7 @@ void Simulator::Scan(BegunFrame& begun, Frame& frame) {
   WithinMemory(parts_->Making(begun.index), [&] {
     const FrameScene& scene = parts_->SceneOf(begun);
     const FiringTiles& firings = parts_->TilesOf(begun);
-    parts_->Scan(parts_->CastOf(scene, firings), firings, frame);
+    parts_->Scan(parts_->CastOf(*parts_->own, scene, firings), firings, frame);
   });
 }
 
@@ -283,7 +294,7 @@ void Simulator::Scan(BegunFrame& begun, Frame& frame, std::vector<ObjectView>& v
   WithinMemory(parts_->Making(begun.index), [&] {
     const FrameScene& scene = parts_->SceneOf(begun);
     const FiringTiles& firings = parts_->TilesOf(begun);
-    const CastFrame cast = parts_->CastOf(scene, firings);
+    const CastFrame cast = parts_->CastOf(*parts_->own, scene, firings);
     ViewCounter counter(cast, world(), parts_->scenes.ObjectsAlone(scene));
     parts_->Scan(cast, firings, frame, &counter);
     views = counter.Total();
@@ -298,15 +309,16 @@ void Simulator::Scan(std::uint32_t frame_index, const HostScene& host, Frame& fr
   WithinMemory(parts_->Making(frame_index), [&] {
     const FramePoses poses =
         parts_->scenes.PosesIn(host.window_from_world, parts_->pattern.StampNs(frame_index));
-    parts_->Scan({.index = frame_index,
-                  .poses = poses,
-                  .caster = host.caster,
-                  .surfaces = host.surfaces,
-                  .wires = nullptr,
-                  .window_from_world = host.window_from_world,
-                  .spray = {},
-                  .mirrors = parts_->tracer->MirrorsAmong(host.surfaces, host.window_from_world)},
-                 *parts_->TilesOf(frame_index), frame);
+    parts_->Scan(
+        {.index = frame_index,
+         .poses = poses,
+         .caster = host.caster,
+         .surfaces = host.surfaces,
+         .wires = nullptr,
+         .window_from_world = host.window_from_world,
+         .spray = {},
+         .mirrors = parts_->own->tracer->MirrorsAmong(host.surfaces, host.window_from_world)},
+        *parts_->TilesOf(frame_index), frame);
   });
 }
 
@@ -356,8 +368,9 @@ std::vector<ObjectView> Simulator::Parts::ViewObjects(const FrameScene& scene,
   const CastFrame cast{scene.index,      scene.poses, scene,
                        scene.surfaces(), nullptr,     scene.window->window_from_world};
   ViewCounter views(cast, scenes.world(), scenes.ObjectsAlone(scene));
-  ForEachTile(firings.num_tiles(),
-              [&](std::size_t tile) { views.Add(*tracer, firings, tile, work->local()); });
+  ForEachTile(firings.num_tiles(), [&](std::size_t tile) {
+    views.Add(*own->tracer, firings, tile, own->work->local());
+  });
   return views.Total();
 }
 

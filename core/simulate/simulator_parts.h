@@ -24,35 +24,49 @@
 
 namespace railcast {
 
+/// A detector's spec, and what makes returns of firings by it.
+struct Detection {
+  using WorkOfThreads = tbb::enumerable_thread_specific<BeamTracer::Work>;
+
+  Detection(const SimulatorSpec& spec,
+            const std::vector<Material>& materials,
+            const ScanPattern& pattern);
+
+  DetectorSpec detector;
+  std::unique_ptr<const BeamTracer> tracer;
+  std::unique_ptr<WorkOfThreads> work;
+  std::optional<Halo> halo;  // If that effect is on and has a cause.
+
+  [[nodiscard]] ReturnMode return_mode() const {
+    return tracer->has_beams() ? detector.receiver.return_mode : ReturnMode::kStrongest;
+  }
+  [[nodiscard]] ReturnRule return_rule() const {
+    const EffectSet& effects = detector.effects;
+    const ReceiverSpec& receiver = detector.receiver;
+    return {return_mode(), effects.dead_time ? static_cast<float>(DeadLength_m(receiver)) : 0.0F,
+            effects.saturation ? static_cast<float>(receiver.saturation_power_ratio.value_or(0.0))
+                               : 0.0F};
+  }
+};
+
 /// What a simulator consists of; its functions are in several files.
 struct Simulator::Parts {
   using EchoUse = std::function<void(std::size_t tile, BeamTracer::Work& work)>;
-  using WorkOfThreads = tbb::enumerable_thread_specific<BeamTracer::Work>;
 
   ScanPattern pattern;
   SimulatorSpec spec;
   std::vector<Material> materials;
   std::shared_ptr<const FiringTiles> tiles;  // Of all frames, or of frame 0 if they differ.
   FrameScenes scenes;
-  std::unique_ptr<const BeamTracer> tracer;
-  std::unique_ptr<WorkOfThreads> work;
-  std::optional<Halo> halo;  // If that effect is on and has a cause.
+  std::optional<Detection> own;  ///< By the spec; always there once the simulator is made.
+  std::vector<FiringVariant> variants;
+  std::vector<Detection> others;  ///< By the variants.
   std::unique_ptr<tbb::global_control> parallelism;
   tbb::task_arena arena;
 
-  [[nodiscard]] ReturnMode return_mode() const {
-    return tracer->has_beams() ? spec.detector.receiver.return_mode : ReturnMode::kStrongest;
-  }
   /// Where the sensor is said to be.
   [[nodiscard]] Transform ReportedPose(std::int64_t time_ns) const {
     return scenes.WorldFromSensor(time_ns) * spec.nominal_from_true.inverse();
-  }
-  [[nodiscard]] ReturnRule return_rule() const {
-    const EffectSet& effects = spec.detector.effects;
-    const ReceiverSpec& receiver = spec.detector.receiver;
-    return {return_mode(), effects.dead_time ? static_cast<float>(DeadLength_m(receiver)) : 0.0F,
-            effects.saturation ? static_cast<float>(receiver.saturation_power_ratio.value_or(0.0))
-                               : 0.0F};
   }
   [[nodiscard]] float range_max_m() const { return static_cast<float>(spec.detector.range_max_m); }
   [[nodiscard]] BegunFrame Begin(std::uint32_t frame_index) {
@@ -78,20 +92,23 @@ struct Simulator::Parts {
     };
   }
   void UseSpec();
+  void UseVariants();
   /// Calls `use(tile, work)` on the echoes of every tile as they reach the receiver.
   /// @param views Receives what every firing sees; may be null.
-  void ForAllEchoes(const CastFrame& cast,
+  void ForAllEchoes(const Detection& by,
+                    const CastFrame& cast,
                     const FiringTiles& firings,
                     ViewCounter* views,
                     const EchoUse& use);
   [[nodiscard]] std::vector<HaloSource> FindHaloSources(const CastFrame& cast,
                                                         const FiringTiles& firings);
-  /// Sets all of a frame but what its slots hold.
+  /// Sets all of a frame but its shape and what its slots hold.
   /// @param firings Those of the whole frame.
   void Prepare(std::uint32_t frame_index, const FiringTiles& firings, Frame& frame) const;
   /// Stores what becomes of firings in their slots of a frame that is prepared, but for what is the
   /// same in all frames (FiringTiles::StoreConstants()).
-  void Fill(const CastFrame& cast,
+  void Fill(const Detection& by,
+            const CastFrame& cast,
             const FiringTiles& firings,
             Frame& frame,
             ViewCounter* views = nullptr);
@@ -101,7 +118,9 @@ struct Simulator::Parts {
             ViewCounter* views = nullptr);
   [[nodiscard]] std::vector<ObjectView> ViewObjects(const FrameScene& scene,
                                                     const FiringTiles& firings);
-  [[nodiscard]] CastFrame CastOf(const FrameScene& scene, const FiringTiles& firings) const;
+  [[nodiscard]] CastFrame CastOf(const Detection& by,
+                                 const FrameScene& scene,
+                                 const FiringTiles& firings) const;
   /// Calls `job(tile)` for each of so many tiles, on the run's threads.
   template <typename Job>
   void ForEachTile(std::size_t num_tiles, const Job& job) {

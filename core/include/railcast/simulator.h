@@ -83,6 +83,12 @@ struct FiringStory {
   std::vector<Echo> echoes;
 };
 
+/// Another way of making firings: the simulator's spec with other effects.
+struct FiringVariant {
+  EffectSet effects{};
+  int footprint_rays = 64;  ///< BeamSpec::footprint_rays.
+};
+
 /// How much of an object the beams of a frame see.
 ///
 /// Where beams have a width (effect `footprint`), each is sampled by 16 rays of equal share;
@@ -193,6 +199,17 @@ class Simulator {
   /// beam, all firings are traced.
   /// @param objects Indices into world().objects().
   void ScanNearObjects(BegunFrame& begun, std::span<const std::size_t> objects, Frame& frame);
+
+  /// Tells the ways in which ScanFirings() makes firings.
+  void UseVariants(std::vector<FiringVariant> variants);
+  /// Makes some firings of a begun frame in every variant, in the scene that the frame itself is
+  /// traced in and with the same random draws: what differs from the frame comes from the effects.
+  /// Halos, which reach from beam to beam, are left out. Thread-safe as Scan().
+  /// @param cells Numbers row * columns + column of the firings, rising; at least one.
+  /// @param frames For each variant: one row, with a column for each cell.
+  void ScanFirings(BegunFrame& begun,
+                   std::span<const std::uint32_t> cells,
+                   std::span<Frame> frames);
 
   /// How much the frame's beams see of each of world().objects(), in order.
   [[nodiscard]] std::vector<ObjectView> ViewObjects(std::uint32_t frame_index);

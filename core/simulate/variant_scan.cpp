@@ -1,0 +1,55 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/out_of_memory.h"
+#include "core/simulate/simulator_parts.h"
+
+namespace railcast {
+
+void Simulator::Parts::UseVariants() {
+  others.clear();
+  for (const FiringVariant& variant : variants) {
+    SimulatorSpec varied = spec;
+    varied.detector.effects = variant.effects;
+    varied.detector.beam.footprint_rays = variant.footprint_rays;
+    others.emplace_back(varied, materials, pattern);
+    // What meets a beam from beside it is found by the beams around it, which are not traced here.
+    others.back().halo.reset();
+    if (others.back().tracer->casts_beams()) scenes.UseBeams();
+  }
+}
+
+void Simulator::UseVariants(std::vector<FiringVariant> variants) {
+  parts_->variants = std::move(variants);
+  parts_->UseVariants();
+}
+
+void Simulator::ScanFirings(BegunFrame& begun,
+                            std::span<const std::uint32_t> cells,
+                            std::span<Frame> frames) {
+  Parts& parts = *parts_;
+  Check(frames.size() == parts.others.size(), "there is a frame for each variant");
+  Check(!cells.empty() && std::ranges::is_sorted(cells), "cells are in order");
+  WithinMemory(parts.Making(begun.index), [&] {
+    const ScanPattern of_frame =
+        parts.pattern.repeats() ? ScanPattern() : PatternOfFrame(parts.pattern, begun.index);
+    const ScanPattern& pattern = parts.pattern.repeats() ? parts.pattern : of_frame;
+    const FiringTiles firings = FiringTiles::OfCells(pattern, cells);
+    const FrameScene& scene = parts.SceneOf(begun);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const Detection& by = parts.others[i];
+      Frame& frame = frames[i];
+      frame.has_velocity = false;
+      parts.Prepare(begun.index, firings, frame);
+      frame.Resize(1, static_cast<std::uint32_t>(cells.size()), NumReturns(by.return_mode()));
+      parts.Fill(by, parts.CastOf(by, scene, firings), firings, frame);
+    }
+  });
+}
+
+}  // namespace railcast
