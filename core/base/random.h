@@ -27,6 +27,7 @@ enum class RandomUse : std::uint32_t {
   kFogPatches = 17,
   kVelocity = 18,
   kRecordedDetection = 19,
+  kCertificate = 20,
   kGroundRoughness = 100,
   kBallastRoughness = 101,
   kTreePlacement = 102,

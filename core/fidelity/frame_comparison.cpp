@@ -18,24 +18,6 @@ constexpr float kLeastMixedShare = 1e-3F;  // Smaller shares may be rounding err
 // The intensity of a white diffuse surface that faces the sensor.
 constexpr float kWhite = 1.0F;
 
-// The echoes of a firing: their slots and measured ranges.
-struct Echoes {
-  Echoes(const Frame& frame, std::size_t firing) {
-    for (std::size_t r = 0; r < frame.returns; ++r) {
-      const std::size_t slot = firing * frame.returns + r;
-      if (!HasPoint(frame.outcome[slot])) continue;
-      slots.push_back(slot);
-      ranges_m.push_back(frame.range_m[slot]);
-    }
-  }
-  std::vector<std::size_t> slots;
-  std::vector<float> ranges_m;
-};
-
-bool IsSurface(const Frame& frame, std::size_t slot) {
-  return frame.outcome[slot] == Outcome::kReturned;
-}
-
 EchoPlace PlaceOf(const Frame& frame, std::size_t slot) {
   return {frame.true_range_m[slot], frame.label[slot], frame.instance[slot]};
 }
@@ -71,6 +53,18 @@ double DropoutError(const decltype(FrameDifference::range_bins)& bins) {
 }
 
 }  // namespace
+
+FiringEchoes::FiringEchoes(const Frame& frame, std::size_t firing) {
+  for (std::size_t slot = firing * frame.returns; slot < (firing + 1) * frame.returns; ++slot) {
+    if (!HasPoint(frame.outcome[slot])) continue;
+    slots.push_back(slot);
+    ranges_m.push_back(frame.range_m[slot]);
+  }
+}
+
+bool IsSurfaceEcho(const Frame& frame, std::size_t slot) {
+  return frame.outcome[slot] == Outcome::kReturned;
+}
 
 EffectSet YardstickEffects() {
   return WithoutRangeErrors(EffectsInRung(Fidelity::kReference));
@@ -148,7 +142,7 @@ void FrameComparison::Add(const Frame& reference, const Frame& other) {
 void FrameComparison::AddTargets(const Frame& reference, const Frame& other) {
   const auto count = [&](const Frame& frame, std::uint64_t TargetPoints::Bin::*num) {
     for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
-      if (!IsSurface(frame, slot)) continue;
+      if (!IsSurfaceEcho(frame, slot)) continue;
       const std::size_t bin = TargetPoints::BinOf(frame.true_range_m[slot]);
       if (IsOneOf(spec_.person_labels, frame.label[slot])) ++(sums_.persons.bins[bin].*num);
       if (IsOneOf(spec_.pole_labels, frame.label[slot])) ++(sums_.poles.bins[bin].*num);
@@ -167,8 +161,8 @@ void FrameComparison::AddEdges(const Frame& reference,
     if (has_step) sums_.steps.Count(!std::isnan(other_steps_m[firing]));
     const std::size_t slot = firing * reference.returns;
     const std::size_t match = firing * other.returns;
-    if (!IsSurface(reference, slot)) continue;
-    const bool is_found = IsSurface(other, match);
+    if (!IsSurfaceEcho(reference, slot)) continue;
+    const bool is_found = IsSurfaceEcho(other, match);
     if (has_step && is_found) {
       step_errors_m_.push_back(std::abs(reference.range_m[slot] - other.range_m[match]));
     }
@@ -182,15 +176,15 @@ void FrameComparison::AddEdges(const Frame& reference,
 }
 
 void FrameComparison::AddFiring(const Frame& reference, const Frame& other, std::size_t firing) {
-  const Echoes ours(reference, firing);
-  const Echoes theirs(other, firing);
+  const FiringEchoes ours(reference, firing);
+  const FiringEchoes theirs(other, firing);
   AddRangeBin(reference.true_range_m[firing * reference.returns], !ours.slots.empty(),
               !theirs.slots.empty());
   const auto matches = MatchEchoes(ours.ranges_m, theirs.ranges_m, spec_.match_distance_m);
   for (std::size_t k = 0; k < theirs.slots.size(); ++k) {
     const bool is_matched = std::any_of(matches.begin(), matches.end(),
                                         [k](const auto& match) { return match.second == k; });
-    if (IsSurface(other, theirs.slots[k])) {
+    if (IsSurfaceEcho(other, theirs.slots[k])) {
       sums_.echoes.Count(is_matched);
       parts_.CountOther(PlaceOf(other, theirs.slots[k]), is_matched);
     }
@@ -207,7 +201,7 @@ void FrameComparison::AddFiring(const Frame& reference, const Frame& other, std:
         std::find_if(matches.begin(), matches.end(), [i](const auto& m) { return m.first == i; });
     const bool is_matched = match != matches.end();
     sums_.reference_echoes_per_label[reference.label[slot]].Count(is_matched);
-    if (!IsSurface(reference, slot)) continue;
+    if (!IsSurfaceEcho(reference, slot)) continue;
     sums_.reference_echoes.Count(is_matched);
     parts_.CountReference(PlaceOf(reference, slot), is_matched);
     const float share = reference.footprint_share[slot];

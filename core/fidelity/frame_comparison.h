@@ -44,6 +44,17 @@ struct ComparisonSpec {
                                                 const LabelTable& labels,
                                                 const std::vector<SceneObject>& objects);
 
+/// The echoes of a firing: their slots and measured ranges.
+struct FiringEchoes {
+  FiringEchoes(const Frame& frame, std::size_t firing);
+
+  std::vector<std::size_t> slots;
+  std::vector<float> ranges_m;
+};
+
+/// Whether a slot has an echo of a surface, not of rain, snow and the like.
+[[nodiscard]] bool IsSurfaceEcho(const Frame& frame, std::size_t slot);
+
 /// Pairs of (reference, other) indices that are the same echo. The nearest pair is matched first,
 /// each echo at most once, and only if the ranges differ by less than `match_distance_m`.
 /// @param reference_m, other_m Ranges of one firing's echoes.

@@ -12,7 +12,7 @@ import re
 import sys
 
 # A folder of core may include only itself and the folders before it.
-CORE_ORDER = "base frame scene mesh rail scan trace detect simulate camera motion scenario fidelity c io points program extras".split()
+CORE_ORDER = "base frame scene mesh rail scan trace detect simulate camera motion scenario fidelity certify c io points program extras".split()
 # The rooms of a folder: each includes only itself and those before it. Files on the top of the folder come where "."
 # stands; without it there may be none.
 ROOM_ORDERS = {

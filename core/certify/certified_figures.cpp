@@ -1,0 +1,272 @@
+#include "core/certify/certified_figures.h"
+
+#include <cmath>
+#include <iomanip>
+#include <iterator>
+#include <set>
+#include <sstream>
+
+#include "core/base/text.h"
+#include "core/scenario/archive.h"
+
+namespace railcast {
+namespace {
+
+/// The numbers of the drawn firings, by their numbers.
+struct PerFiring {
+  explicit PerFiring(std::size_t num) : found(num), missed(num), wrong(num), other_label(num) {}
+  std::vector<double> found, missed, wrong, other_label;
+
+  [[nodiscard]] std::vector<double> Sum(const std::vector<double>& a) const {
+    std::vector<double> sum = found;
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += a[i];
+    return sum;
+  }
+};
+
+// Whether the interval of a figure is within a limit, beyond it, or neither.
+enum class Side { kWithin, kBeyond, kOpen };
+Side SideOf(const std::optional<CertifiedFigure>& figure, double limit) {
+  if (!figure) return Side::kOpen;
+  if (figure->low > limit) return Side::kBeyond;
+  return figure->high && *figure->high <= limit ? Side::kWithin : Side::kOpen;
+}
+
+// Whether the figures of all quantities are within a tolerance, one of them is beyond it, or
+// neither.
+Side SideOf(const CertifiedPart& part, const ToleranceSpec& tolerance) {
+  const Side sides[] = {SideOf(part.missed, tolerance.missed_share),
+                        SideOf(part.wrong, tolerance.false_share),
+                        SideOf(part.range_p50_m, tolerance.range_m)};
+  Side all = Side::kWithin;
+  for (const Side side : sides) {
+    if (side == Side::kBeyond) return side;
+    if (side == Side::kOpen) all = side;
+  }
+  return all;
+}
+
+std::string RangeName(std::uint32_t bin) {
+  constexpr std::uint32_t kNumEnds = std::size(kStratumEnds_m);
+  if (bin == kNumEnds) return "beyond " + NumberText(kStratumEnds_m[kNumEnds - 1]) + " m";
+  const std::string begin = bin == 0 ? "0" : NumberText(kStratumEnds_m[bin - 1]);
+  return begin + " to " + NumberText(kStratumEnds_m[bin]) + " m";
+}
+
+std::string RoundedText(double value, int num_digits) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(num_digits) << value;
+  return text.str();
+}
+
+std::string ShareText(const CertifiedFigure& figure) {
+  const auto percent = [](double share) { return RoundedText(100.0 * share, 1); };
+  return percent(figure.value) + " % (" + percent(figure.low) + " to " +
+         percent(figure.high.value_or(1.0)) + ")";
+}
+
+std::string MillimetresText(const CertifiedFigure& figure) {
+  const auto mm = [](double metres) { return RoundedText(1e3 * metres, 1); };
+  return mm(figure.value) + " mm (" + mm(figure.low) +
+         (figure.high ? " to " + mm(*figure.high) : " and more") + ")";
+}
+
+}  // namespace
+
+void Describe(Archive& a, CertifiedFigure& s) {
+  a.Required("value", s.value, "");
+  a.Required("low", s.low, "Lower end of the 95 % interval.");
+  a.Optional("high", s.high, "Upper end; left out where too little was drawn to tell.");
+}
+
+void Describe(Archive& a, CertifiedPart& s) {
+  a.Required("name", s.name, "Of the class, range or object.");
+  a.Required("echoes", s.echoes, "Echoes of the reference that were drawn.");
+  a.Optional("missed", s.missed, "Share of the reference's echoes that the run has not.");
+  a.Optional("false", s.wrong, "Share of the run's echoes that the reference has not.");
+  a.Optional("other_label", s.other_label, "Share of the found echoes that have another label.");
+  a.Optional("range_p50_m", s.range_p50_m, "Median of the range errors before noise.");
+  a.Optional("range_p95_m", s.range_p95_m, "Their 95 % quantile.");
+  a.Optional("power_p50", s.power_p50, "Median of |power / the reference's - 1|.");
+  a.Optional("power_p95", s.power_p95, "Its 95 % quantile.");
+}
+
+void Describe(Archive& a, CertifiedRung& s) {
+  a.Required("name", s.name, "");
+  a.Required("cost", s.cost, "In multiples of the run's own, by the table of costs.");
+  a.Optional("missed", s.missed, "As of the run.");
+  a.Optional("false", s.wrong, "Likewise.");
+}
+
+void Describe(Archive& a, CertifiedTolerance& s) {
+  a.Required("frames_within", s.frames_within, "Frames whose intervals are within it.");
+  a.Required("frames_beyond", s.frames_beyond, "Frames with an interval that is beyond it.");
+  a.Required("within", s.is_within, "Whether the figures of the whole run are within it.");
+}
+
+void Describe(Archive& a, RunCertificate& s) {
+  a.Required("cost_share", s.cost_share, "As --certify gave it.");
+  a.Required("frames", s.frames, "");
+  a.Required("firings", s.firings, "Of all frames.");
+  a.Required("drawn", s.drawn, "Firings that were made anew.");
+  a.Required("without_drawn", s.without_drawn,
+             "Share of the firings in strata of which none was drawn.");
+  a.Required("all", s.all, "Figures over all echoes of surfaces.");
+  a.Optional("classes", s.classes, "By label.");
+  a.Optional("ranges", s.ranges, "By range.");
+  a.Optional("objects", s.objects, "By object.");
+  a.Optional("rungs", s.rungs, "What the rungs beside would have given, on the same firings.");
+  a.Optional("tolerance", s.tolerance, "Of fidelity `auto`: where it held.");
+}
+
+void CertificateSums::Add(const FrameCertificate& frame) {
+  ++num_frames_;
+  for (const StratumCount& stratum : frame.strata) {
+    shares_.AddFirings(stratum, stratum.firings, stratum.probability);
+  }
+  for (const DrawnFiring& drawn : frame.drawn) {
+    shares_.AddDrawn(frame.strata[drawn.stratum]);
+    drawn_.push_back(drawn);
+  }
+  if (!spec_.tolerance) return;
+  CertifySpec alone = spec_;
+  alone.tolerance.reset();
+  CertificateSums of_frame(std::move(alone));
+  of_frame.Add(frame);
+  const Side side =
+      SideOf(of_frame.PartOf("all", [](const CertifiedEcho&) { return true; }), *spec_.tolerance);
+  if (side == Side::kWithin) ++num_within_;
+  if (side == Side::kBeyond) ++num_beyond_;
+}
+
+CertifiedPart CertificateSums::PartOf(std::string name, const IsOf& is_of) const {
+  PerFiring numbers(drawn_.size());
+  std::vector<std::pair<std::size_t, double>> range_errors_m;
+  std::vector<std::pair<std::size_t, double>> power_errors;
+  CertifiedPart part{.name = std::move(name)};
+  std::uint64_t num_found = 0;
+  std::uint64_t num_wrong = 0;
+  for (std::size_t i = 0; i < drawn_.size(); ++i) {
+    for (const CertifiedEcho& echo : drawn_[i].echoes) {
+      if (!is_of(echo)) continue;
+      if (echo.verdict == EchoVerdict::kFalse) {
+        numbers.wrong[i] += 1.0;
+        ++num_wrong;
+        continue;
+      }
+      ++part.echoes;
+      if (echo.verdict == EchoVerdict::kMissed) {
+        numbers.missed[i] += 1.0;
+        continue;
+      }
+      ++num_found;
+      numbers.found[i] += 1.0;
+      if (echo.has_other_label) numbers.other_label[i] += 1.0;
+      if (echo.range_error_m) range_errors_m.emplace_back(i, *echo.range_error_m);
+      if (echo.power) power_errors.emplace_back(i, std::abs(*echo.power - 1.0));
+    }
+  }
+  constexpr std::uint64_t kLeast = CertifiedPart::kLeastEchoes;
+  if (part.echoes >= kLeast)
+    part.missed = shares_.Share(numbers.missed, numbers.Sum(numbers.missed));
+  if (num_found + num_wrong >= kLeast) {
+    part.wrong = shares_.Share(numbers.wrong, numbers.Sum(numbers.wrong));
+  }
+  if (num_found >= kLeast) {
+    part.other_label = shares_.Share(numbers.other_label, numbers.found);
+    part.range_p50_m = shares_.Quantile(range_errors_m, 0.5);
+    part.range_p95_m = shares_.Quantile(range_errors_m, 0.95);
+  }
+  if (power_errors.size() >= kLeast) {
+    part.power_p50 = shares_.Quantile(power_errors, 0.5);
+    part.power_p95 = shares_.Quantile(power_errors, 0.95);
+  }
+  return part;
+}
+
+CertifiedRung CertificateSums::RungOf(std::size_t i) const {
+  PerFiring numbers(drawn_.size());
+  for (std::size_t k = 0; k < drawn_.size(); ++k) {
+    const VerdictCounts& counts = drawn_[k].rungs.at(i);
+    numbers.found[k] = counts.found;
+    numbers.missed[k] = counts.missed;
+    numbers.wrong[k] = counts.wrong;
+  }
+  return {.name = spec_.rungs[i].name,
+          .cost = spec_.rungs[i].cost,
+          .missed = shares_.Share(numbers.missed, numbers.Sum(numbers.missed)),
+          .wrong = shares_.Share(numbers.wrong, numbers.Sum(numbers.wrong))};
+}
+
+RunCertificate CertificateSums::Result(const LabelTable& labels) const {
+  RunCertificate result{.cost_share = spec_.cost_share,
+                        .frames = num_frames_,
+                        .firings = shares_.num_firings(),
+                        .drawn = shares_.num_drawn()};
+  if (num_frames_ > 0) result.without_drawn = shares_.share_without_drawn();
+  result.all = PartOf("all", [](const CertifiedEcho&) { return true; });
+  std::set<std::uint32_t> ids;
+  std::set<std::uint32_t> bins;
+  std::set<std::uint32_t> instances;
+  const auto bin_of = [](const CertifiedEcho& echo) {
+    return StratumBinOf(static_cast<float>(echo.range_m));
+  };
+  for (const DrawnFiring& drawn : drawn_) {
+    for (const CertifiedEcho& echo : drawn.echoes) {
+      ids.insert(echo.label);
+      bins.insert(bin_of(echo));
+      if (spec_.objects.contains(echo.instance)) instances.insert(echo.instance);
+    }
+  }
+  for (const std::uint32_t id : ids) {
+    const Label* const label = labels.Find(id);
+    result.classes.push_back(PartOf(label == nullptr ? NumberText(id) : label->name,
+                                    [id](const CertifiedEcho& echo) { return echo.label == id; }));
+  }
+  for (const std::uint32_t bin : bins) {
+    result.ranges.push_back(
+        PartOf(RangeName(bin), [&](const CertifiedEcho& echo) { return bin_of(echo) == bin; }));
+  }
+  for (const std::uint32_t instance : instances) {
+    result.objects.push_back(PartOf(spec_.objects.at(instance), [&](const CertifiedEcho& echo) {
+      return echo.instance == instance;
+    }));
+  }
+  for (std::size_t i = 0; i < spec_.rungs.size(); ++i) result.rungs.push_back(RungOf(i));
+  if (spec_.tolerance) {
+    result.tolerance = {num_within_, num_beyond_,
+                        SideOf(result.all, *spec_.tolerance) == Side::kWithin};
+  }
+  return result;
+}
+
+std::string CertificateText(const RunCertificate& certificate) {
+  const CertifiedPart& all = certificate.all;
+  std::string text = "certificate: ";
+  if (all.missed && all.wrong) {
+    text +=
+        ShareText(*all.missed) + " of the echoes missed, " + ShareText(*all.wrong) + " false";
+  } else {
+    text += "too few echoes were drawn to tell";
+  }
+  if (all.range_p50_m)
+    text += ", range errors " + MillimetresText(*all.range_p50_m) + " in the median";
+  text += "; " + NumberText(certificate.drawn) + " of " + NumberText(certificate.firings) +
+          " firings were made anew on rung reference\n";
+  for (const CertifiedRung& rung : certificate.rungs) {
+    if (!rung.missed || !all.missed) continue;
+    text += "  " + rung.name + " would take " + RoundedText(rung.cost, rung.cost < 10.0 ? 2 : 0) +
+            " times as long and miss " + ShareText(*rung.missed) + " instead of " +
+            ShareText(*all.missed) + "\n";
+  }
+  if (certificate.tolerance) {
+    const auto& [within, beyond, is_within] = *certificate.tolerance;
+    text += "  the tolerance held for certain in " + NumberText(within) + " of " +
+            NumberText(certificate.frames) + " frames, and did not in " + NumberText(beyond) +
+            "; the run as a whole is " + (is_within ? "within it" : "not known to be within it") +
+            "\n";
+  }
+  return text;
+}
+
+}  // namespace railcast

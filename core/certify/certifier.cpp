@@ -1,0 +1,248 @@
+#include "core/certify/certifier.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/random.h"
+#include "core/detect/base/beam_optics.h"
+#include "core/fidelity/frame_comparison.h"
+
+namespace railcast {
+namespace {
+
+// The standard deviations of what is wrong with a firing, as they were found in the scenarios of
+// tests/core/certify: only their ratios count, and wrong ones cost nothing but precision.
+constexpr double kInnerScatter = 0.2;
+constexpr double kEdgeScatter = 0.45;
+constexpr double kVagueScatter = 0.5;
+constexpr double kLostScatter = 0.25;  // Nothing came back, though there is something.
+constexpr double kNothingScatter = 0.05;
+// Their mean over the firings of a usual frame.
+constexpr double kMeanScatter = 0.25;
+
+constexpr const char* kVagueLabels[] = {"grass",          "tree",    "bush", "contact_wire",
+                                        "messenger_wire", "dropper", "fence"};
+
+// The places of 0.1 mm and of a thousandth suffice, and are short in a file.
+double ToPlaces(float value, double per_unit) {
+  return std::round(static_cast<double>(value) * per_unit) / per_unit;
+}
+
+CertifiedEcho EchoOf(EchoVerdict verdict, const Frame& frame, std::size_t slot) {
+  return {.verdict = verdict,
+          .label = frame.label[slot],
+          .instance = frame.instance[slot],
+          .range_m = ToPlaces(frame.true_range_m[slot], 1e3)};
+}
+
+// Echoes of surfaces on either side; those of clutter may match, but are not counted.
+std::vector<CertifiedEcho> Compare(const Frame& reference,
+                                   const Frame& other,
+                                   std::size_t firing,
+                                   float match_distance_m) {
+  const FiringEchoes theirs(reference, firing);
+  const FiringEchoes ours(other, firing);
+  const auto matches = MatchEchoes(theirs.ranges_m, ours.ranges_m, match_distance_m);
+  std::vector<CertifiedEcho> echoes;
+  for (std::size_t i = 0; i < theirs.slots.size(); ++i) {
+    const std::size_t slot = theirs.slots[i];
+    if (!IsSurfaceEcho(reference, slot)) continue;
+    const auto match = std::ranges::find(matches, i, &std::pair<std::size_t, std::size_t>::first);
+    CertifiedEcho& echo = echoes.emplace_back(EchoOf(EchoVerdict::kMissed, reference, slot));
+    if (match == matches.end()) continue;
+    const std::size_t found = ours.slots[match->second];
+    echo.verdict = EchoVerdict::kFound;
+    echo.range_error_m = ToPlaces(std::abs(other.range_m[found] - reference.range_m[slot]), 1e4);
+    const float power = other.power_ratio[found] / reference.power_ratio[slot];
+    if (std::isfinite(power)) echo.power = ToPlaces(power, 1e3);
+    echo.has_other_label = other.label[found] != reference.label[slot];
+  }
+  for (std::size_t k = 0; k < ours.slots.size(); ++k) {
+    const std::size_t slot = ours.slots[k];
+    const bool is_found =
+        std::ranges::any_of(matches, [k](const auto& m) { return m.second == k; });
+    if (IsSurfaceEcho(other, slot) && !is_found) {
+      echoes.push_back(EchoOf(EchoVerdict::kFalse, other, slot));
+    }
+  }
+  return echoes;
+}
+
+VerdictCounts CountsOf(const std::vector<CertifiedEcho>& echoes) {
+  VerdictCounts counts;
+  for (const CertifiedEcho& echo : echoes) {
+    if (echo.verdict == EchoVerdict::kFound) ++counts.found;
+    if (echo.verdict == EchoVerdict::kMissed) ++counts.missed;
+    if (echo.verdict == EchoVerdict::kFalse) ++counts.wrong;
+  }
+  return counts;
+}
+
+/// Counts the firings of a frame by strata. A map would take as long as the trace does.
+class StrataCounter {
+ public:
+  void Count(const Stratum& stratum) {
+    // Neighbours mostly have one label, and a frame some ten.
+    if (stratum.label != label_) FindLabel(stratum.label);
+    ++counts_[first_ + PlaceOf(stratum)];
+  }
+  [[nodiscard]] std::vector<StratumCount> Strata() const {
+    std::vector<StratumCount> strata;
+    for (std::uint32_t place = 0; place < counts_.size(); ++place) {
+      if (counts_[place] == 0) continue;
+      const std::uint32_t rest = place % kPerLabel;
+      strata.push_back({{labels_[place / kPerLabel], rest / 4, (rest & 2U) != 0, (rest & 1U) != 0},
+                        counts_[place],
+                        0.0});
+    }
+    return strata;
+  }
+
+ private:
+  static constexpr std::uint32_t kPerLabel = 4 * (std::size(kStratumEnds_m) + 1);
+
+  static std::uint32_t PlaceOf(const Stratum& stratum) {
+    return 4 * stratum.range_bin + 2 * std::uint32_t{stratum.is_edge} +
+           std::uint32_t{stratum.has_return};
+  }
+  void FindLabel(std::uint32_t label) {
+    const auto at = std::ranges::find(labels_, label);
+    first_ = static_cast<std::size_t>(at - labels_.begin()) * kPerLabel;
+    label_ = label;
+    if (at != labels_.end()) return;
+    labels_.push_back(label);
+    counts_.resize(labels_.size() * kPerLabel);
+  }
+
+  std::vector<std::uint32_t> labels_;
+  std::vector<std::uint64_t> counts_;
+  std::optional<std::uint32_t> label_;  ///< The last one, whose counters begin at ...
+  std::size_t first_ = 0;
+};
+
+/// Draws cells, each with one probability, in their order: from one to the next, the distance is
+/// geometrically distributed, so that those in between cost nothing.
+class CellDraws {
+ public:
+  CellDraws(std::uint64_t seed, std::uint32_t frame, double probability)
+      : seed_(seed), frame_(frame), log_not_(std::log1p(-probability)) {}
+
+  /// The next cell, and a number in [0, 1) of its own; may be beyond the last one.
+  struct Draw {
+    double cell{};
+    double number{};
+  };
+  [[nodiscard]] Draw Next() {
+    const auto words = RandomWords(seed_, RandomUse::kCertificate, frame_, num_++);
+    const double u = (static_cast<double>(words[0]) + 0.5) * 0x1p-32;
+    // Of probability 1, log_not_ is minus infinity, and the distance 0.
+    cell_ += 1.0 + std::floor(std::log(u) / log_not_);
+    return {cell_, static_cast<double>(words[1]) * 0x1p-32};
+  }
+
+ private:
+  std::uint64_t seed_;
+  std::uint32_t frame_;
+  double log_not_;
+  std::uint32_t num_ = 0;
+  double cell_ = -1.0;
+};
+
+}  // namespace
+
+double NumCertified(const ScenarioSpec& scenario,
+                    const DetectorSpec& own,
+                    std::size_t num_firings,
+                    double cost_share) {
+  const double frame = InstructionsPerFiring(own.effects, own.beam);
+  double drawn =
+      frame + InstructionsPerFiring(EffectsAt(Fidelity::kReference, scenario), scenario.lidar.beam);
+  for (const RungBeside& rung : RungsBeside(scenario, own)) drawn += rung.cost * frame;
+  return cost_share * static_cast<double>(num_firings) * frame / drawn;
+}
+
+Certifier::Certifier(const ScenarioSpec& scenario, double cost_share, Simulator& simulator)
+    : seed_(simulator.spec().detector.seed),
+      match_distance_m_(static_cast<float>(0.5 * PulseLength_m(scenario.lidar.beam))),
+      rungs_(RungsBeside(scenario, simulator.spec().detector)) {
+  const DetectorSpec& own = simulator.spec().detector;
+  if (own.effects.dense_footprint) {
+    throw InputError(
+        "--certify: must be at another fidelity than reference, which it compares with");
+  }
+  const std::size_t num_firings = simulator.pattern().num_firings();
+  num_expected_ = NumCertified(scenario, own, num_firings, cost_share);
+  probability_per_scatter_ = num_expected_ / static_cast<double>(num_firings) / kMeanScatter;
+  const LabelTable labels(scenario.labels);
+  for (const char* name : kVagueLabels) {
+    if (const Label* label = labels.Find(name)) vague_labels_.insert(label->id);
+  }
+  const int rays = own.beam.footprint_rays;
+  std::vector<FiringVariant> variants = {
+      {WithoutRangeErrors(EffectsAt(Fidelity::kReference, scenario)), rays},
+      {WithoutRangeErrors(own.effects), rays}};
+  for (const RungBeside& rung : rungs_) variants.push_back(rung.variant);
+  simulator.UseVariants(std::move(variants));
+}
+
+double Certifier::ProbabilityOf(const Stratum& stratum) const {
+  double scatter = stratum.has_return ? kInnerScatter : kLostScatter;
+  if (vague_labels_.contains(stratum.label)) {
+    scatter = kVagueScatter;
+  } else if (stratum.is_edge) {
+    scatter = kEdgeScatter;
+  } else if (stratum.label == 0) {
+    scatter = kNothingScatter;
+  }
+  return std::min(scatter * probability_per_scatter_, 1.0);
+}
+
+FrameCertificate Certifier::Certify(Simulator& simulator,
+                                    BegunFrame& begun,
+                                    const Frame& frame) const {
+  const std::vector<std::uint8_t> edges = EdgesOf(frame);
+  StrataCounter counter;
+  for (std::size_t cell = 0; cell < edges.size(); ++cell) {
+    counter.Count(StratumOf(frame, cell, edges[cell] != 0));
+  }
+  FrameCertificate certificate{counter.Strata(), {}};
+  double most = 0.0;
+  for (StratumCount& stratum : certificate.strata) {
+    stratum.probability = ProbabilityOf(stratum);
+    most = std::max(most, stratum.probability);
+  }
+  std::vector<std::uint32_t> cells;
+  std::vector<std::uint32_t> strata;
+  CellDraws draws(seed_, frame.index, most);
+  for (auto draw = draws.Next(); draw.cell < static_cast<double>(edges.size());
+       draw = draws.Next()) {
+    const auto cell = static_cast<std::uint32_t>(draw.cell);
+    const Stratum stratum = StratumOf(frame, cell, edges[cell] != 0);
+    const auto at =
+        std::ranges::find(certificate.strata, stratum, [](const Stratum& each) { return each; });
+    if (draw.number * most >= at->probability) continue;
+    cells.push_back(cell);
+    strata.push_back(static_cast<std::uint32_t>(at - certificate.strata.begin()));
+  }
+  if (cells.empty()) return certificate;
+  std::vector<Frame> frames(2 + rungs_.size());
+  simulator.ScanFirings(begun, cells, frames);
+  const Frame& reference = frames[0];
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    DrawnFiring& drawn = certificate.drawn.emplace_back();
+    drawn.cell = cells[i];
+    drawn.stratum = strata[i];
+    drawn.echoes = Compare(reference, frames[1], i, match_distance_m_);
+    for (std::size_t k = 2; k < frames.size(); ++k) {
+      drawn.rungs.push_back(CountsOf(Compare(reference, frames[k], i, match_distance_m_)));
+    }
+  }
+  return certificate;
+}
+
+}  // namespace railcast

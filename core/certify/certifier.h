@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <vector>
+
+#include "core/certify/certificate.h"
+#include "core/certify/rungs_beside.h"
+#include "railcast/frame.h"
+#include "railcast/scenario.h"
+#include "railcast/simulator.h"
+
+namespace railcast {
+
+/// Certifies the frames of a simulator: draws some firings of each, makes them anew on rung
+/// `reference` and on those beside the run's own, in the same scene and with the same random draws,
+/// and compares their echoes before range noise.
+///
+/// Which firings are drawn depends on the sensor's seed, the frame's number and its own result
+/// alone: by strata (StrataOf()), more of those of which experience says that they differ (Neyman
+/// 1934). The probabilities are the same in all frames.
+///
+///     const Certifier certifier(scenario, 0.01, *simulator);
+///     auto begun = simulator->Begin(42);
+///     simulator->Scan(*begun, frame);
+///     const FrameCertificate certificate = certifier.Certify(*simulator, *begun, frame);
+class Certifier {
+ public:
+  /// Has the simulator make the variants that are needed.
+  /// @param cost_share What the certificates may take, as a share of the frames' own time; > 0.
+  /// @param simulator With the effects that its frames are made with.
+  /// @throws InputError if these are those of rung `reference`.
+  Certifier(const ScenarioSpec& scenario, double cost_share, Simulator& simulator);
+
+  /// Thread-safe for different frames, as Simulator::Scan().
+  /// @param simulator The same, with the same effects.
+  /// @param frame As the simulator made it.
+  [[nodiscard]] FrameCertificate Certify(Simulator& simulator,
+                                         BegunFrame& begun,
+                                         const Frame& frame) const;
+
+  /// Those beside the run's own, whose errors are found on the same firings.
+  [[nodiscard]] const std::vector<RungBeside>& rungs() const { return rungs_; }
+  /// About how many firings of a frame are drawn.
+  [[nodiscard]] double num_expected() const { return num_expected_; }
+
+ private:
+  [[nodiscard]] double ProbabilityOf(const Stratum& stratum) const;
+
+  std::uint64_t seed_;
+  float match_distance_m_;
+  std::set<std::uint32_t> vague_labels_;  ///< Of plants, wires and nets.
+  std::vector<RungBeside> rungs_;
+  double num_expected_{};
+  double probability_per_scatter_{};
+};
+
+/// About how many firings of a frame a share of its time is enough for.
+[[nodiscard]] double NumCertified(const ScenarioSpec& scenario,
+                                  const DetectorSpec& own,
+                                  std::size_t num_firings,
+                                  double cost_share);
+
+}  // namespace railcast

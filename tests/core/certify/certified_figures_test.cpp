@@ -1,0 +1,127 @@
+#include "core/certify/certified_figures.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace railcast {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::uint32_t kGroundLabel = 4;
+constexpr std::uint32_t kPersonLabel = 13;
+constexpr Stratum kGroundStratum{
+    .label = kGroundLabel, .range_bin = 0, .is_edge = false, .has_return = true};
+
+CertifiedEcho Found(double error_m,
+                    std::uint32_t label = kGroundLabel,
+                    std::uint32_t instance = 0) {
+  return {EchoVerdict::kFound, label, instance, 20.0, error_m, 1.1, false};
+}
+
+/// A frame of 10,000 firings of which 40 were drawn: 30 with an echo of the ground, of which 6 are
+/// missed; and 10 on a person, all found.
+FrameCertificate MadeCertificate() {
+  FrameCertificate certificate;
+  certificate.strata.push_back({kGroundStratum, 10'000, 0.004});
+  for (std::uint32_t i = 0; i < 40; ++i) {
+    DrawnFiring& drawn = certificate.drawn.emplace_back();
+    drawn.cell = 100 * i;
+    drawn.rungs = {{1, 0, 0}};
+    if (i < 10) {
+      drawn.echoes = {Found(0.001, kPersonLabel, 7)};
+    } else if (i < 16) {
+      drawn.echoes = {{EchoVerdict::kMissed, kGroundLabel, 0, 60.0},
+                      {EchoVerdict::kFalse, kGroundLabel, 0, 66.0}};
+    } else {
+      drawn.echoes = {Found(0.002)};
+    }
+  }
+  return certificate;
+}
+
+LabelTable Labels() {
+  Label ground;
+  ground.id = kGroundLabel;
+  ground.name = "ground";
+  Label person;
+  person.id = kPersonLabel;
+  person.name = "person";
+  return LabelTable({ground, person});
+}
+
+RunCertificate OfOneFrame(const std::optional<ToleranceSpec>& tolerance = {}) {
+  CertificateSums sums({0.01, {{"surface", {}, 0.125}}, {{7, "Ann"}}, tolerance});
+  sums.Add(MadeCertificate());
+  return sums.Result(Labels());
+}
+
+TEST(CertificateSums, GiveSharesOfMissedAndFalseEchoesOverAll) {
+  const RunCertificate run = OfOneFrame();
+  EXPECT_EQ(run.frames, 1U);
+  EXPECT_EQ(run.firings, 10'000U);
+  EXPECT_EQ(run.drawn, 40U);
+  EXPECT_EQ(run.all.echoes, 40U);
+  EXPECT_DOUBLE_EQ(run.all.missed->value, 6.0 / 40.0);
+  EXPECT_DOUBLE_EQ(run.all.wrong->value, 6.0 / 40.0);
+  EXPECT_DOUBLE_EQ(run.all.other_label->value, 0.0);
+  EXPECT_DOUBLE_EQ(run.all.range_p50_m->value, 0.002);
+  EXPECT_NEAR(run.all.power_p50->value, 0.1, 1e-12);
+  EXPECT_DOUBLE_EQ(run.without_drawn, 0.0);
+}
+
+TEST(CertificateSums, GiveThemByClassRangeAndObject) {
+  const RunCertificate run = OfOneFrame();
+  ASSERT_EQ(run.classes.size(), 2U);
+  EXPECT_EQ(run.classes[0].name, "ground");
+  EXPECT_DOUBLE_EQ(run.classes[0].missed->value, 6.0 / 30.0);
+  EXPECT_EQ(run.classes[1].name, "person");
+  EXPECT_DOUBLE_EQ(run.classes[1].missed->value, 0.0);
+  ASSERT_EQ(run.ranges.size(), 2U);
+  EXPECT_EQ(run.ranges[0].name, "0 to 25 m");
+  EXPECT_EQ(run.ranges[1].name, "50 to 100 m");
+  ASSERT_EQ(run.objects.size(), 1U);
+  EXPECT_EQ(run.objects[0].name, "Ann");
+  EXPECT_EQ(run.objects[0].echoes, 10U);
+}
+
+TEST(CertificateSums, GiveNoFigureOfFewerThanTenEchoes) {
+  const RunCertificate run = OfOneFrame();
+  EXPECT_EQ(run.ranges[1].echoes, 6U);
+  EXPECT_FALSE(run.ranges[1].missed);
+}
+
+TEST(CertificateSums, TellWhatAnotherRungMissesOnTheSameFirings) {
+  const RunCertificate run = OfOneFrame();
+  ASSERT_EQ(run.rungs.size(), 1U);
+  EXPECT_DOUBLE_EQ(run.rungs[0].missed->value, 0.0);
+  EXPECT_THAT(CertificateText(run),
+              HasSubstr("surface would take 0.12 times as long and miss 0.0 %"));
+}
+
+TEST(CertificateSums, CountFramesOfWhichTheToleranceIsKnownToHold) {
+  ToleranceSpec wide;
+  wide.missed_share = wide.false_share = 0.5;
+  wide.range_m = 0.1;
+  EXPECT_EQ(OfOneFrame(wide).tolerance->frames_within, 1U);
+  EXPECT_TRUE(OfOneFrame(wide).tolerance->is_within);
+  ToleranceSpec narrow = wide;
+  narrow.missed_share = 0.01;
+  EXPECT_EQ(OfOneFrame(narrow).tolerance->frames_beyond, 1U);
+  ToleranceSpec between = wide;
+  between.missed_share = 0.15;
+  EXPECT_EQ(OfOneFrame(between).tolerance->frames_within, 0U);
+  EXPECT_EQ(OfOneFrame(between).tolerance->frames_beyond, 0U);
+  EXPECT_FALSE(OfOneFrame(between).tolerance->is_within);
+}
+
+TEST(CertificateText, SaysHowMuchIsMissedAndHowManyFiringsTellIt) {
+  const std::string text = CertificateText(OfOneFrame());
+  EXPECT_THAT(text, HasSubstr("certificate: 15.0 % ("));
+  EXPECT_THAT(text, HasSubstr("40 of 10000 firings were made anew on rung reference"));
+}
+
+}  // namespace
+}  // namespace railcast
