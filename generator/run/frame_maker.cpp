@@ -123,7 +123,20 @@ FrameJob FrameMaker::Begin(std::size_t sensor, std::uint32_t frame_index) {
     made.has_image = has_image;
     if (has_image) camera_->Render(simulator, *begun, made.image);
     made.motion = sensor == 0 ? SampleMotion(*begun) : MotionSamples{};
+    const auto certifier = certifiers_.find(sensor);
+    made.certificate.reset();
+    if (certifier != certifiers_.end()) {
+      made.certificate = certifier->second.Certify(simulator, *begun, made.frame);
+    }
   };
+}
+
+const Certifier& FrameMaker::Certify(std::size_t sensor, double cost_share) {
+  Simulator& simulator = *simulators_[sensor];
+  certifiers_.erase(sensor);
+  // Of a scenario with several sensors, a certifier knows its own.
+  const ScenarioSpec own = PickSensor(scenario_, SensorNames(scenario_).at(sensor));
+  return certifiers_.emplace(sensor, Certifier(own, cost_share, simulator)).first->second;
 }
 
 std::vector<ObjectInFrame> FrameMaker::ScanAndDescribe(std::size_t sensor,

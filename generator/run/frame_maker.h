@@ -6,11 +6,13 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/certify/certifier.h"
 #include "core/io/run/object_survey.h"
 #include "core/scenario/command_log.h"
 #include "railcast/camera.h"
@@ -31,6 +33,7 @@ struct MadeFrame {
   bool has_image = false;  ///< Whether the camera has an image of this frame.
   RigidMotion vehicle;     ///< At the stamp.
   MotionSamples motion;    ///< Those in the time of this frame; none but of the first sensor.
+  std::optional<FrameCertificate> certificate;  ///< If the sensor's frames are certified.
 };
 
 /// Makes one frame. Called once, by any thread, while other frames may be made.
@@ -70,6 +73,10 @@ class FrameMaker {
   /// @return What makes it.
   /// @throws InputError as At() does.
   [[nodiscard]] FrameJob Begin(std::size_t sensor, std::uint32_t frame_index);
+
+  /// Has the sensor's frames certified from now on, with the effects that its simulator has now.
+  /// @throws InputError as Certifier does.
+  const Certifier& Certify(std::size_t sensor, double cost_share);
 
   /// Scans a frame, and finds what it shows of the world's objects. Thread-safe.
   /// @param begun The frame as the sensor's simulator began it.
@@ -125,6 +132,7 @@ class FrameMaker {
   std::optional<MotionSensors> motion_sensors_;
   /// By sensor. Each survey remembers what it measured, so that each thread has its own.
   std::deque<tbb::enumerable_thread_specific<CurrentSurvey>> surveys_;
+  std::map<std::size_t, Certifier> certifiers_;  ///< By sensor.
 };
 
 }  // namespace railcast

@@ -209,6 +209,7 @@ std::vector<SequenceResult> RunSequences(const std::vector<SensorSequence>& sens
     made.num_done = directory->num_done();
     made.is_complete = directory->is_complete();
     made.counts = directory->counts();
+    made.certificate = directory->certificate();
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
   for (SequenceResult& result : results) result.elapsed_s = elapsed.count();
@@ -278,6 +279,19 @@ bool ChooseFidelities(
     return false;
   }
   return true;
+}
+
+void UseCertificates(FrameMaker& maker, RunPlan& plan) {
+  for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
+    SensorPlan& sensor = plan.sensors[i];
+    if (!sensor.spec.certify) continue;
+    CertifySpec& certify = *sensor.spec.certify;
+    certify.rungs = maker.Certify(i, certify.cost_share).rungs();
+    for (const SceneObject& object : maker.simulator(i).world().objects()) {
+      certify.objects.emplace(object.instance, object.name);
+    }
+    if (sensor.scenario.fidelity == Fidelity::kAuto) certify.tolerance = sensor.scenario.tolerance;
+  }
 }
 
 PlanResult MakeFrames(FrameMaker& maker, const RunPlan& plan, const SequenceHooks& hooks) {

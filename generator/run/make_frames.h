@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,8 +28,9 @@ struct FramesAtOnce {
 };
 
 struct SequenceResult : RunResult {
-  FrameCounts counts;  ///< Over all frames in the directory.
-  double elapsed_s{};  ///< Wall-clock time for the frames made in this run.
+  FrameCounts counts;                         ///< Over all frames in the directory.
+  std::optional<RunCertificate> certificate;  ///< Likewise; if the run is certified.
+  double elapsed_s{};                         ///< Wall-clock time for the frames made in this run.
 };
 
 struct SequenceHooks : RunHooks {
@@ -51,6 +53,12 @@ struct SequenceHooks : RunHooks {
     const std::function<void(const SensorPlan& sensor, const FidelityChoice& choice)>& on_choice,
     const SequenceHooks& hooks,
     RunPlan& plan);
+
+/// Has the frames of those sensors certified whose plans say so, and notes in the plans what their
+/// certificates are about.
+/// @pre Their effects are chosen (ChooseFidelities()).
+/// @throws InputError as FrameMaker::Certify().
+void UseCertificates(FrameMaker& maker, RunPlan& plan);
 
 /// How far the run of a plan has got.
 struct PlanResult {

@@ -167,6 +167,7 @@ void RunDirectory::CheckNames(bool is_run) const {
 void RunDirectory::CountFrames() {
   if (trace_) found_trace_ = trace_->Find();
   counts_ = {};
+  if (spec_.certify) certificates_.emplace(*spec_.certify);
   std::optional<FrameRecord> record;
   const auto read = [&](std::uint32_t i, std::string_view line) -> std::optional<LedgerItem> {
     record = ParseFrameLine(line);
@@ -177,11 +178,21 @@ void RunDirectory::CountFrames() {
     return LedgerItem{record->files, record->records_hash, NumLinesOf(spec_, *record)};
   };
   num_done_ = lines_.Count(most_done_, read, [&](std::string_view records) {
-    counts_.Add(record->counts);
+    AddRecord(*record);
     if (first_pose_) return;
     first_pose_ = ReadPoseRecord(records.substr(0, records.find('\n') + 1),
                                  ShownPath(spec_.directory / kPosesFile));
   });
+}
+
+void RunDirectory::AddRecord(const FrameRecord& record) {
+  counts_.Add(record.counts);
+  if (certificates_ && record.certificate) certificates_->Add(*record.certificate);
+}
+
+std::optional<RunCertificate> RunDirectory::certificate() const {
+  if (!certificates_) return std::nullopt;
+  return certificates_->Result(spec_.files.labels);
 }
 
 void RunDirectory::OpenTrace() {
@@ -277,7 +288,8 @@ void RunDirectory::Encode(const MadeFrame& made, EncodedFrame& encoded) const {
                     .files = {},
                     .records_hash = {},
                     .motion_lines = {},
-                    .counts = CountFrame(frame, spec_.files.labels)};
+                    .counts = CountFrame(frame, spec_.files.labels),
+                    .certificate = made.certificate};
   if (trace_) {
     encoded.trace_message = trace_->Encode(made);
     encoded.record.clouds_hash = ContentHash(encoded.trace_message);
@@ -305,7 +317,7 @@ void RunDirectory::Write(const EncodedFrame& frame) {
     record.records_hash = std::move(records_hash);
     return HashedRecordLine(record);
   });
-  counts_.Add(record.counts);
+  AddRecord(record);
   ++num_done_;
 }
 
@@ -323,7 +335,8 @@ std::string RunDirectory::ManifestJson() const {
                           .format = std::string(spec_.files.format->name),
                           .start_frame = spec_.start_frame,
                           .num_frames = spec_.num_frames,
-                          .counts = counts_};
+                          .counts = counts_,
+                          .certificate = certificate()};
   if (!spec_.fidelity_choice_json.empty()) {
     manifest.fidelity_choice = Json::parse(spec_.fidelity_choice_json);
   }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/certify/certified_figures.h"
 #include "core/io/run/frame_record.h"
 #include "core/io/run/run_folder.h"
 #include "generator/run/frame_maker.h"
@@ -70,6 +71,8 @@ class RunDirectory {
   [[nodiscard]] const std::vector<std::string>& changed() const { return changed_; }
   /// Counts over all frames done.
   [[nodiscard]] const FrameCounts& counts() const { return counts_; }
+  /// The numerical error of all frames done; absent if the run is not certified.
+  [[nodiscard]] std::optional<RunCertificate> certificate() const;
 
   /// Encodes one of the run's frames. Several threads may do so at once, and while one writes.
   /// @param encoded Its memory is reused.
@@ -90,6 +93,7 @@ class RunDirectory {
   // Counts the first frames that are done, with their messages in the trace.
   void CountFrames();
   void OpenTrace();
+  void AddRecord(const FrameRecord& record);
   // Compares a complete directory with what was written; empty if nothing has changed.
   [[nodiscard]] std::string WhatChanged() const;
   // Returns the files that are known before the first frame, except run.json.
@@ -104,6 +108,7 @@ class RunDirectory {
   std::vector<std::string> changed_;
   std::uint32_t num_done_ = 0;
   FrameCounts counts_;
+  std::optional<CertificateSums> certificates_;  ///< If the run is certified.
   std::optional<PoseRecord> first_pose_;
   LineLedger lines_;                      ///< frames.jsonl is last.
   std::unique_ptr<SequenceTrace> trace_;  ///< Null = none.

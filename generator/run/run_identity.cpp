@@ -35,6 +35,7 @@ RunRecord RunRecordOf(const SequenceSpec& spec) {
     }
   }
   if (spec.stride != 1) run.stride_if_not_1 = spec.stride;
+  if (spec.certify) run.certify = spec.certify->cost_share;
   return run;
 }
 
@@ -63,6 +64,7 @@ std::string NameOf(const std::string& key) {
   if (key == "num_frames") return "--frames";
   if (key == "start_frame") return "--start-frame";
   if (key == "stride") return "--stride";
+  if (key == "certify") return "--certify";
   return key;
 }
 

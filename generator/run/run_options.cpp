@@ -26,6 +26,11 @@ void AddRunChoices(ProgramOptions& command, RunChoices& choices) {
   command.AddFlag("--merged", choices.is_merged,
                   "Also write the clouds of all sensors together, in the vehicle's axes, with "
                   "the field sensor_index");
+  command
+      .AddOption("--certify", choices.certify,
+                 "Share of the frames' time, such as 1%, for making some of their firings anew on "
+                 "rung reference, which tells the run's numerical error; or off")
+      .ShowDefault();
   AddThreads(command, choices.num_threads);
   AddIsa(command, choices.isa);
 }

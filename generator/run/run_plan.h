@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/certify/certified_figures.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/scenario/command_log.h"
 #include "generator/run/frame_maker.h"
@@ -27,8 +28,9 @@ struct RunChoices {
   std::uint32_t start_frame = 0;
   std::uint32_t num_frames = 10;
   std::uint32_t stride = 1;
-  bool is_merged = false;  ///< Whether the clouds of several sensors are merged, too.
-  int num_threads = 0;     ///< 0 = all cores.
+  bool is_merged = false;       ///< Whether the clouds of several sensors are merged, too.
+  std::string certify = "off";  ///< A share of the time, "1%", or "off".
+  int num_threads = 0;          ///< 0 = all cores.
 };
 
 /// Everything that the bytes of a sequence directory depend on.
@@ -62,6 +64,9 @@ struct SequenceSpec {
   std::uint32_t start_frame{};
   std::uint32_t num_frames{};
   std::uint32_t stride = 1;  ///< Every how many-th of the scenario's frames is made.
+  /// Absent: the run is not certified. The time share is known at once, all else from
+  /// FrameMaker::Certify() on.
+  std::optional<CertifySpec> certify{};
 
   /// The number of the run's i-th frame.
   [[nodiscard]] std::uint32_t FrameAt(std::uint32_t i) const { return start_frame + i * stride; }
@@ -121,6 +126,10 @@ void UseCommands(const std::filesystem::path& log, const ScenarioSpec& whole, Ru
 /// @throws InputError if a file of the scenario has changed since it was read, a sensor has no such
 ///   frame, or a frame's stamp does not fit into 64 bits.
 void SetFrames(const FrameMaker& maker, RunPlan& plan);
+
+/// The share of the time that `--certify` gives: 0.01 of "1%"; nothing of "off".
+/// @throws InputError if it is neither.
+[[nodiscard]] std::optional<double> CertifiedShareOf(const std::string& text);
 
 /// The numbers that command lines may give to frames.
 inline constexpr std::uint64_t kMaxFrame = 1'000'000'000;

@@ -136,6 +136,7 @@ int RunSequenceCommand(const SequenceOptions& options) {
     std::cerr << "interrupted before the first frame\n";
     return kExitInterrupted;
   }
+  UseCertificates(maker, plan);
   const PlanResult result = MakeFrames(maker, plan, hooks);
   if (merging) merging->End();
   if (!has_all) return kExitInterrupted;

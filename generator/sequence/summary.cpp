@@ -53,6 +53,7 @@ std::string Summary(const SequenceSpec& spec, const SequenceResult& result) {
     outcomes.emplace_back(kOutcomeNames[i], result.counts.outcomes[i]);
   }
   PutTable("firings by outcome", std::move(outcomes), text);
+  if (result.certificate) text << CertificateText(*result.certificate);
   text << result.num_done << " of " << spec.num_frames << " frames in " << ShownPath(spec.directory)
        << "\n";
   return text.str();

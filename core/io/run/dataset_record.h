@@ -26,8 +26,9 @@ struct DatasetRecord {
   std::string format;
   std::string fields;
   bool is_merged{};
-  std::string files_hash{};  ///< Of the files that the recipe names; empty if it names none.
-  std::string shard{};       ///< "2/7"; empty for a whole data set.
+  std::string files_hash{};         ///< Of the files that the recipe names; empty if it names none.
+  std::string shard{};              ///< "2/7"; empty for a whole data set.
+  std::optional<double> certify{};  ///< As RunRecord::certify.
 };
 void Describe(Archive& a, DatasetRecord& s);
 

@@ -187,6 +187,7 @@ void Describe(Archive& a, FrameRecord& s) {
   a.Optional("clouds_xxh3", s.clouds_hash,
              "Hash of its clouds in the run's bag, or of its message in the trace.");
   Describe(a, s.counts);
+  a.Optional("certificate", s.certificate, "What is known of its numerical error.");
 }
 
 void CheckTimes(const std::vector<RecordedScanPose>& poses, const std::string& place) {

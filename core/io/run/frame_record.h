@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/certify/certificate.h"
 #include "core/io/run/sequence_files.h"
 #include "railcast/frame.h"
 #include "railcast/transform.h"
@@ -109,6 +110,7 @@ struct FrameRecord {
   std::string
       clouds_hash{};  ///< Over its clouds in the run's bag or trace; empty if there is none.
   FrameCounts counts{};
+  std::optional<FrameCertificate> certificate{};  ///< If the run is certified.
 
   bool operator==(const FrameRecord&) const = default;
 };

@@ -67,6 +67,7 @@ void Describe(Archive& a, RunRecord& s) {
   a.Required("num_frames", s.num_frames, "Of the whole run.");
   a.Optional("stride", s.stride_if_not_1, "From one frame's number to the next; left out where 1.",
              Limits{.at_least = 1});
+  a.Optional("certify", s.certify, "Share of the time that certificates may take.");
 }
 
 std::vector<KnownFile> RunRecord::Files() const {
@@ -91,6 +92,7 @@ void Describe(Archive& a, ManifestRecord& s) {
   a.Required("num_frames", s.num_frames, "");
   a.Optional("fidelity_choice", s.fidelity_choice, "What fidelity `auto` chose.");
   Describe(a, s.counts);
+  a.Optional("certificate", s.certificate, "The run's numerical error.");
   a.Required("files_xxh3", s.files, "Hashes of all files but those that frames.jsonl names.");
   a.Required("data_xxh3", s.data_hash, "Hash of these hashes without that of run.json.");
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/certify/certified_figures.h"
 #include "core/io/run/frame_record.h"
 #include "core/io/run/sequence_files.h"
 #include "core/scenario/json_text.h"
@@ -57,6 +58,7 @@ struct RunRecord {
   std::uint32_t start_frame{};
   std::uint32_t num_frames{};
   std::optional<std::uint32_t> stride_if_not_1{};
+  std::optional<double> certify{};  ///< Share of the time that certificates may take.
 
   /// From one frame's number to the next.
   [[nodiscard]] std::uint32_t stride() const { return stride_if_not_1.value_or(1); }
@@ -77,6 +79,7 @@ struct ManifestRecord {
   std::uint32_t num_frames{};
   Json fidelity_choice{};  ///< What fidelity `auto` chose; null at another fidelity.
   FrameCounts counts{};
+  std::optional<RunCertificate> certificate{};  ///< If the run is certified.
   /// The hashes of all files except those of the frames, which frames.jsonl names.
   NamedValues<std::string> files{};
   std::string data_hash{};

@@ -9,7 +9,9 @@
 
 #include "core/base/text.h"
 #include "core/extras/recipe/recipe.h"
+#include "core/io/record/read_record.h"
 #include "core/io/run/dataset_files.h"
+#include "core/io/run/dataset_record.h"
 #include "core/io/run/run_folder.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/io/write_file.h"
@@ -34,6 +36,7 @@ struct DatasetOptions {
   std::string shard = "1/1";
   bool has_scenarios_only = false;
   bool has_format = false;
+  bool has_certify = false;
 };
 
 // Writes the scenarios that frames would be made of, without frames.
@@ -112,9 +115,20 @@ class ScenarioProgress {
   std::optional<ProgressLine> line_;
 };
 
+// A data set is certified unless the command line says otherwise; one that was begun goes on as it
+// was begun.
+std::string UsualCertify(const Recipe& recipe, const DatasetChoices& choices) {
+  if (recipe.has_plans()) return "off";
+  const std::filesystem::path file = choices.directory / kDatasetFile;
+  if (!std::filesystem::exists(file)) return "1%";
+  const auto record = ReadRecord<DatasetRecord>(ReadFileWhole(file), ShownPath(file));
+  return record.certify ? NumberText(100.0 * *record.certify) + "%" : "off";
+}
+
 int RunDatasetCommand(DatasetOptions options) {
   const Recipe recipe = ReadRecipe(options.recipe, ReadRecordedBase);
   if (recipe.has_plans() && !options.has_format) options.choices.format = "same";
+  if (!options.has_certify) options.choices.certify = UsualCertify(recipe, options.choices);
   if (options.has_scenarios_only) return WriteScenarios(recipe, options);
   // The folder can be continued however the program ends.
   CatchStopSignals();
@@ -164,6 +178,7 @@ void AddDataset(ProgramOptions& app, ProgramCommand& command) {
   dataset.AddFlag("--scenarios-only", options->has_scenarios_only,
                   "Write the scenarios without frames, to a new or an empty folder, and report "
                   "their parts, bases, weathers, draws and objects");
+  options->choices.certify = "1%";
   AddRunChoices(dataset, options->choices);
   dataset.Footer(
       "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"
@@ -172,6 +187,7 @@ void AddDataset(ProgramOptions& app, ProgramCommand& command) {
     CheckFields(options->choices.fields);
     options->choices.shard = ParseShard(options->shard).value();
     options->has_format = dataset.is_given("--format");
+    options->has_certify = dataset.is_given("--certify");
     command = [options](const std::string&) { return RunDatasetCommand(*options); };
   });
 }

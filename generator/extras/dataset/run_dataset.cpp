@@ -53,7 +53,8 @@ DatasetSpec SpecOfDataset(const Recipe& recipe,
                               .format = choices.format,
                               .fields = choices.fields,
                               .is_merged = choices.is_merged,
-                              .files_hash = HashOfRecipeFiles(recipe)},
+                              .files_hash = HashOfRecipeFiles(recipe),
+                              .certify = CertifiedShareOf(choices.certify)},
                    .shard = choices.shard};
   spec.record.recipe_hash = ContentHash(spec.recipe);
   for (std::size_t i = 0; i < recipe.bases.size(); ++i) {
@@ -81,6 +82,7 @@ void CheckChoices(const Recipe& recipe, const DatasetChoices& choices) {
   if (choices.fields != usual.fields) throw InputError("--fields" + rule);
   if (choices.is_merged) throw InputError("--merged" + rule);
   if (!choices.isa.empty()) throw InputError("--isa" + rule);
+  if (choices.certify != usual.certify) throw InputError("--certify" + rule);
   for (const RecipeBase& base : recipe.bases) {
     InsertChoices insert;
     insert.recording = base.run->recording();
@@ -216,6 +218,13 @@ class DatasetRun {
     hooks.is_alone = turn.is_alone;
     const auto ignore = [](const SensorPlan&, const FidelityChoice&) {};
     if (!ChooseFidelities(maker, ignore, hooks, plan)) return false;
+    // A recipe may draw the reference itself for some of its scenarios, which needs no certificate.
+    for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
+      if (maker.simulator(i).spec().detector.effects.dense_footprint) {
+        plan.sensors[i].spec.certify.reset();
+      }
+    }
+    UseCertificates(maker, plan);
     const PlanResult made = MakeFrames(maker, plan, hooks);
     for (const SequenceResult& each : made.sequences) {
       num_frames_ += each.num_done - each.num_resumed;
