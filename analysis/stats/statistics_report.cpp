@@ -5,6 +5,7 @@
 #include "analysis/report/cell_text.h"
 #include "analysis/report/provenance.h"
 #include "analysis/stats/bins.h"
+#include "analysis/stats/certificate_section.h"
 #include "core/base/text.h"
 
 namespace railcast {
@@ -132,6 +133,9 @@ Report MakeStatisticsReport(const Statistics& statistics,
         "Dropout", "unknown: where the sensor fired without a return cannot be told for certain");
   }
   AddNoiseHeadline(statistics.noise, report);
+  // Error beside noise: what the rung leaves out, beside what the sensor adds.
+  const std::optional<RunCertificate> certificate = CertificateOf(sources);
+  if (certificate) AddCertificateHeadlines(*certificate, report);
   AddVelocityHeadline(statistics.velocity, report);
   AddDensityHeadline(
       statistics.density.by_label(), [&](std::uint32_t id) { return names.OfLabel(id); }, report);
@@ -157,6 +161,7 @@ Report MakeStatisticsReport(const Statistics& statistics,
     report.sections.push_back(statistics.gauge.MakeSection(names));
   }
   report.sections.push_back(statistics.noise.MakeSection());
+  if (certificate) report.sections.push_back(MakeCertificateSection(*certificate));
   report.sections.push_back(statistics.temporal_noise.MakeSection());
   if (!statistics.velocity.is_empty()) {
     report.sections.push_back(statistics.velocity.MakeSection());

@@ -1,0 +1,142 @@
+#include "analysis/stats/certificate_section.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "analysis/report/cell_text.h"
+#include "core/base/text.h"
+#include "core/io/recording/sequence_check.h"
+#include "core/io/run/frame_record.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kPercent = 100.0;
+constexpr double kMm = 1e3;
+
+Estimate EstimateOf(const std::optional<CertifiedFigure>& figure,
+                    double factor,
+                    std::uint64_t num) {
+  if (!figure) return NotEnough(num);
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  return Scaled({figure->value, figure->low, figure->high.value_or(kNaN), num}, factor);
+}
+
+Table PartsTable(std::string key, const std::string& of, const std::vector<CertifiedPart>& parts) {
+  Table table = {
+      std::move(key), "Numerical error by " + of,
+      "Echoes: those of the reference that were drawn. Errors of the power are those of its ratio.",
+      ColumnsOf(
+          "part: Part; echoes: Echoes; missed_percent: Missed (%); false_percent: False (%); "
+          "range_p50_mm: Range error, median (mm); range_p95_mm: Range error, 95 % (mm); "
+          "power_p50_percent: Power error, median (%); other_label_percent: Other label (%)")};
+  for (const CertifiedPart& part : parts) {
+    const auto of_part = [&](const std::optional<CertifiedFigure>& figure, double factor) {
+      return EstimateOf(figure, factor, part.echoes);
+    };
+    table.rows.push_back({part.name, part.echoes, of_part(part.missed, kPercent),
+                          of_part(part.wrong, kPercent), of_part(part.range_p50_m, kMm),
+                          of_part(part.range_p95_m, kMm), of_part(part.power_p50, kPercent),
+                          of_part(part.other_label, kPercent)});
+  }
+  return table;
+}
+
+Table RungsTable(const RunCertificate& certificate) {
+  Table table = {"certificate_rungs", "What other rungs would have given",
+                 "On the same firings. Time: in multiples of the run's own, by the table of costs.",
+                 ColumnsOf("rung: Rung; time_ratio: Time; missed_percent: Missed (%); "
+                           "false_percent: False (%)")};
+  const std::uint64_t num = certificate.all.echoes;
+  const auto add = [&](const std::string& name, double cost, const auto& missed,
+                       const auto& wrong) {
+    table.rows.push_back(
+        {name, cost, EstimateOf(missed, kPercent, num), EstimateOf(wrong, kPercent, num)});
+  };
+  add("this run", 1.0, certificate.all.missed, certificate.all.wrong);
+  for (const CertifiedRung& rung : certificate.rungs) {
+    add(rung.name, rung.cost, rung.missed, rung.wrong);
+  }
+  return table;
+}
+
+// Adds up the frames of a run.
+void AddFrames(const std::filesystem::path& run, CertificateSums& sums) {
+  const std::filesystem::path file = run / kFramesFile;
+  std::ifstream lines(file, std::ios::binary);
+  std::size_t number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const FrameRecord record =
+        ReadFrameLine(line, ShownPath(file) + ":" + std::to_string(++number));
+    if (record.certificate) sums.Add(*record.certificate);
+  }
+}
+
+}  // namespace
+
+std::optional<RunCertificate> CertificateOf(const std::vector<RecordingInfo>& sources) {
+  std::vector<const RecordingInfo*> certified;
+  std::vector<RunCertificate> certificates;
+  for (const RecordingInfo& info : sources) {
+    if (!info.origin || !info.origin->is_finished) continue;
+    const SequenceSummary summary = ReadSequenceSummary(info.source);
+    if (!summary.manifest || !summary.manifest->certificate) continue;
+    certified.push_back(&info);
+    certificates.push_back(*summary.manifest->certificate);
+  }
+  if (certificates.empty()) return std::nullopt;
+  if (certificates.size() == 1) return certificates.front();
+  CertifySpec spec{.cost_share = certificates.front().cost_share};
+  const auto has_same_rungs = [&](const RunCertificate& other) {
+    return std::ranges::equal(other.rungs, certificates.front().rungs, {}, &CertifiedRung::name,
+                              &CertifiedRung::name);
+  };
+  // Frames of different rungs have no neighbours in common.
+  if (std::ranges::all_of(certificates, has_same_rungs)) {
+    for (const CertifiedRung& rung : certificates.front().rungs) {
+      spec.rungs.push_back({rung.name, {}, rung.cost});
+    }
+  }
+  CertificateSums sums(std::move(spec));
+  for (const RecordingInfo* info : certified) AddFrames(info->source, sums);
+  return sums.Result(sources.front().labels);
+}
+
+Section MakeCertificateSection(const RunCertificate& certificate) {
+  Section section{
+      "certificate",
+      "Numerical error",
+      {Joined({"What the run's rung leaves out, measured on itself: ", CountText(certificate.drawn),
+               " of ", CountText(certificate.firings),
+               " firings were drawn at random and made anew on rung reference, in the same scene "
+               "and with the same random draws, and their echoes compared before range noise. "
+               "Intervals are of 95 %."}),
+       CertificateText(certificate)}};
+  if (certificate.without_drawn > 0.0) {
+    section.paragraphs.push_back(
+        Joined({"Of firings of some kinds, ", ShortText(kPercent * certificate.without_drawn),
+                " % of all, none was drawn; others stand for them."}));
+  }
+  section.tables.push_back(PartsTable("certificate", "part", {certificate.all}));
+  if (!certificate.rungs.empty()) section.tables.push_back(RungsTable(certificate));
+  section.tables.push_back(PartsTable("certificate_by_class", "class", certificate.classes));
+  section.tables.push_back(PartsTable("certificate_by_range", "range", certificate.ranges));
+  if (!certificate.objects.empty()) {
+    section.tables.push_back(PartsTable("certificate_by_object", "object", certificate.objects));
+  }
+  return section;
+}
+
+void AddCertificateHeadlines(const RunCertificate& certificate, Report& report) {
+  const CertifiedPart& all = certificate.all;
+  report.headlines.push_back(
+      {"Echoes missed for the rung", "%", EstimateOf(all.missed, kPercent, all.echoes)});
+  report.headlines.push_back(
+      {"Range error of the rung", "mm", EstimateOf(all.range_p50_m, kMm, all.echoes)});
+}
+
+}  // namespace railcast
