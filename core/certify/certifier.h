@@ -43,9 +43,10 @@ class Certifier {
   [[nodiscard]] const std::vector<RungBeside>& rungs() const { return rungs_; }
   /// About how many firings of a frame are drawn.
   [[nodiscard]] double num_expected() const { return num_expected_; }
+  /// With which each firing of a stratum is drawn.
+  [[nodiscard]] double ProbabilityOf(const Stratum& stratum) const;
 
  private:
-  [[nodiscard]] double ProbabilityOf(const Stratum& stratum) const;
 
   std::uint64_t seed_;
   float match_distance_m_;

@@ -12,6 +12,7 @@
 #include "core/simulate/detail_choice.h"
 #include "generator/check/check_report.h"
 #include "generator/commands.h"
+#include "generator/run/run_plan.h"
 #include "generator/run/stopping.h"
 #include "railcast/effects.h"
 #include "railcast/lidar.h"
@@ -24,6 +25,7 @@ namespace {
 struct CheckOptions {
   std::filesystem::path scenario;
   std::optional<std::string> resolved;  ///< File for the resolved scenario; "-" = stdout.
+  std::string certify = "off";
   bool is_verbose = false;
 };
 
@@ -62,6 +64,14 @@ class Report {
            SceneText(AuditScene(*world_, materials_, stamp_ns, chunks)) +
            DetailText(AuditDetail(*world_, stamp_ns, chunks, Detail()),
                       LabelTable(scenario_.labels));
+  }
+
+  [[nodiscard]] std::string Certificate(double cost_share) const {
+    const auto simulator = MakeSimulator(scenario_, 0);
+    if (scenario_.fidelity == Fidelity::kAuto) {
+      static_cast<void>(UseChosenFidelity(*simulator, scenario_));
+    }
+    return CertificateBudgetText(scenario_, cost_share, *simulator);
   }
 
   [[nodiscard]] std::string Choice() const {
@@ -105,17 +115,20 @@ CheckedFrames FramesToCheck(const ScenarioSpec& scenario, const RailWorld& world
 void PrintReport(const ScenarioSpec& scenario,
                  const std::shared_ptr<const RailWorld>& world,
                  const CheckedFrames& frames,
-                 bool is_verbose) {
+                 const CheckOptions& options) {
   const std::vector<std::string> sensors = SensorNames(scenario);
   std::string choices;
+  std::string certificates;
   for (const std::string& sensor : sensors) {
     const ScenarioSpec picked = PickSensor(scenario, sensor);
     const Report report(picked, world);
     std::cout << ShownLines(report.Sensor());
-    if (sensor == sensors.front()) std::cout << ShownLines(report.Line(is_verbose));
+    if (sensor == sensors.front()) std::cout << ShownLines(report.Line(options.is_verbose));
     std::cout << ShownLines(report.WhatItSees());
     if (sensors.size() > 1) choices += ReportLine("sensor", sensor);
     choices += report.Choice();
+    const auto cost_share = CertifiedShareOf(options.certify);
+    if (cost_share) certificates += report.Certificate(*cost_share);
   }
   std::cout << ShownLines(ObjectsText(*world, LabelTable(scenario.labels)))
             << ShownLines(MeshesText(scenario.world.objects, LabelTable(scenario.labels),
@@ -124,6 +137,7 @@ void PrintReport(const ScenarioSpec& scenario,
             << ShownLines(ContactsText(FindContactRuns(*world, frames.pattern, frames.last), *world,
                                        frames.last));
   if (scenario.fidelity == Fidelity::kAuto) std::cout << ShownLines(choices);
+  std::cout << ShownLines(certificates);
   if (scenario.camera) std::cout << ShownLines(CameraText(*scenario.camera));
   if (scenario.motion_sensors) {
     std::cout << ShownLines(MotionSensorsText(*scenario.motion_sensors));
@@ -143,7 +157,7 @@ int RunCheck(const CheckOptions& options) {
     return kExitSuccess;
   }
   if (options.resolved) WriteFileWhole(*options.resolved, ResolvedScenarioJson(scenario));
-  PrintReport(scenario, world, frames, options.is_verbose);
+  PrintReport(scenario, world, frames, options);
   if (options.resolved)
     std::cout << "resolved scenario in " << ShownPath(*options.resolved) << "\n";
   return kExitSuccess;
@@ -162,6 +176,11 @@ void AddCheck(ProgramOptions& app, ProgramCommand& command) {
                  "File to write the scenario to, with all defaults and included files filled in; "
                  "- is stdout, which then gets no other output")
       .Check(NonEmpty());
+  check
+      .AddOption("--certify", options->certify,
+                 "Share of the frames' time, such as 1%: also tells how well a certificate of that "
+                 "share would know a run, and the numerical error of three frames")
+      .ShowDefault();
   check.WhenParsed([&app, &command, options] {
     options->is_verbose = app.is_given("--verbose");
     command = [options](const std::string&) { return RunCheck(*options); };

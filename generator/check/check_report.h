@@ -20,6 +20,7 @@
 #include "railcast/objects.h"
 #include "railcast/rail_world.h"
 #include "railcast/scenario.h"
+#include "railcast/simulator.h"
 
 namespace railcast {
 
@@ -53,6 +54,14 @@ struct VehicleWay {
 /// what these mean in the scenario's weather; and the keys of the weather that none of them reads.
 /// @throws InputError if effects do not go together.
 [[nodiscard]] std::string EffectsText(const ScenarioSpec& scenario);
+
+/// What the certificate of a run of 50 frames would know at a share of the frames' time, the
+/// numerical error of three frames by some 500 firings, and what the rungs beside would give.
+/// @param simulator Of the scenario, with the effects of its run; its variants are replaced.
+/// @throws InputError as Certifier does.
+[[nodiscard]] std::string CertificateBudgetText(const ScenarioSpec& scenario,
+                                                double cost_share,
+                                                Simulator& simulator);
 
 // The paragraphs that `railcast-generate check` prints for a valid scenario. Each consists of whole
 // lines and begins with its subject.

@@ -265,7 +265,16 @@ are not known.)")
 file has them far from 0, as in a national grid.)")
       .def_readonly("objects", &RecordedFrame::objects,
                     R"(The objects within range, those of objects.jsonl. Empty for clouds of others
-and for simulated frames that were not asked for them.)");
+and for simulated frames that were not asked for them.)")
+      .def_property_readonly(
+          "certificate",
+          [](const RecordedFrame& self) -> py::object {
+            if (self.certificate_json.empty()) return py::none();
+            return py::module_::import("json").attr("loads")(self.certificate_json);
+          },
+          R"(What the frame's numerical error rests on, `certificate` of its line in frames.jsonl:
+dict; None where the run is not certified. "strata" are its firings by kind with their number and
+the probability of each to be drawn, "drawn" are those that were made anew, with their echoes.)");
 }
 
 void AddFrame(py::module_& module) {

@@ -50,6 +50,14 @@ class Recordings(unittest.TestCase):
             for thing, written in zip(frame.objects, line["objects"]):
                 np.testing.assert_array_equal(thing.sensor_from_box[:3, 3], written["sensor"]["center_m"])
 
+    def test_certified_frames_have_what_their_error_rests_on(self):
+        generate("sequence", SCENARIO, "--out", self.folder / "certified", "--frames", 2, "--certify", "20%")
+        lines = (self.folder / "certified" / "frames.jsonl").read_text("utf-8").splitlines()
+        for frame, line in zip(railcast.open(self.folder / "certified"), map(json.loads, lines)):
+            self.assertEqual(frame.certificate, line["certificate"])
+            self.assertEqual(sum(each["firings"] for each in frame.certificate["strata"]), 28800)
+        self.assertIsNone(next(iter(railcast.open(self.folder / "pcd"))).certificate)
+
     def test_frames_are_read_by_their_place(self):
         recording = railcast.open(self.folder / "pcd")
         in_order = [frame["x"].tobytes() for frame in recording]

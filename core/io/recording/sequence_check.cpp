@@ -7,6 +7,7 @@
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
 #include "core/io/record/read_record.h"
+#include "core/io/record/record_text.h"
 #include "core/io/run/motion_files.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
@@ -191,6 +192,7 @@ void TakeRecords(const FrameRecord& line, const FrameLines& lines, RecordedFrame
   TakeScanPoses(line, frame);
   recorded.has_pose = true;
   recorded.objects = ReadObjectsLine(objects.text, line.frame, objects.place);
+  if (line.certificate) recorded.certificate_json = RecordText(*line.certificate);
   CheckRecords(line, lines);
 }
 

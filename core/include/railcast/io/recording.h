@@ -77,6 +77,9 @@ struct RecordedFrame {
   bool has_pose{};  ///< Whether world_from_sensor is known.
   PointAxes axes = PointAxes::kSensorAtFiring;
   std::vector<RecordedObject> objects;  ///< railcast sequences only.
+  /// What its numerical error rests on, the JSON of `certificate` in frames.jsonl; empty where the
+  /// frame is not certified.
+  std::string certificate_json{};
   /// Fields of the file that have no counterpart in `frame`, in the file's order, at most 64.
   /// Colours are left out.
   std::vector<ForeignField> foreign{};
