@@ -7,8 +7,9 @@ Prints one line per fault, "file:line: rule (what was found)", and exits 1 if th
 files or headings that do not exist, links of the site's pages to files that scripts/make_site.sh does
 not put into it, names of files that do not exist, pages of docs that docs/index.md has no link to,
 pictures of docs/images that no page shows or that lack words of their source, scripts of figures that
-do not exist, quotes that are not in the file that they are from, and a manual of more words than
-MOST_WORDS permits. Prints how many words the manual has.
+do not exist, quotes that are not in the file that they are from, recipes of CONTRIBUTING.md that name a
+file that does not exist, more than MOST_FILES, or no test or example that is compiled, and a manual of
+more words than MOST_WORDS permits. Prints how many words the manual has.
 """
 
 import html
@@ -34,6 +35,10 @@ QUOTE = re.compile(r"<!-- from (\S+) -->\n(?:```\w*\n(.*?)^```)?", re.MULTILINE 
 # A file of the project; capitals stand for any name.
 NAMED_FILE = re.compile(r"`((?:core|generator|analysis|viewer|tests|scripts|examples)/[\w/.*-]+\.(?:h|cpp|py|sh|json|md))`"
                         r"(?!\s+of\s+revision)")
+RECIPES = "CONTRIBUTING.md"
+RECIPE = re.compile(r"^\*\*(an? [^*]+)\*\*(.*?)(?=^\*\*an? |^#|\Z)", re.MULTILINE | re.DOTALL)
+FILE_OF_RECIPE = re.compile(r"`([\w./*-]+\.(?:h|cpp|c|py|sh|json|md|txt))`|\]\(([\w./-]+)\)")
+MOST_FILES = 6
 LABEL = re.compile(r'label="([^"]*)"')  # In a text for graphviz.
 HEADING = re.compile(r"^#{1,6}[ \t]+(.+?)[ \t]*#*$", re.MULTILINE)
 
@@ -149,6 +154,30 @@ def lint_quotes(root, pages):
                 line = text.count("\n", 0, match.start()) + 1
                 yield f"{path.relative_to(root).as_posix()}:{line}: a quote stands in its file ({name})"
 
+
+def compiled_sources(root):
+    """What the CMakeLists.txt files of tests and examples list."""
+    return {(path.parent / word).resolve() for tree in ("tests", "examples") for path in (root / tree).rglob("CMakeLists.txt")
+            for word in re.findall(r"[\w./-]+\.(?:cpp|c)\b", path.read_text(encoding="utf-8"))}
+
+
+def lint_recipes(root):
+    """Yields the recipes that are not of few files that exist, with a test or an example among them."""
+    page = root / RECIPES
+    text = page.read_text(encoding="utf-8") if page.exists() else ""
+    compiled = compiled_sources(root)
+    for match in RECIPE.finditer(text):
+        place = f"{RECIPES}:{text.count(chr(10), 0, match.start()) + 1}"
+        names = sorted({code or link for code, link in FILE_OF_RECIPE.findall(match[2])})
+        for name in names:
+            if not any(root.glob(re.sub("[A-Z]{2,}", "*", name))):
+                yield f"{place}: a file of a recipe exists ({name})"
+        if len(names) > MOST_FILES:
+            yield f"{place}: a recipe names at most {MOST_FILES} files ({len(names)}, {match[1]})"
+        if compiled.isdisjoint(root / name for name in names):
+            yield f"{place}: a recipe names a test or an example that is compiled ({match[1]})"
+
+
 def words_of_manual(root):
     """How many words README and the pages of docs have that are neither generated nor results."""
     pages = [root / "README.md", *(root / "docs").rglob("*.md")]
@@ -167,7 +196,7 @@ def lint(root):
     pages = read_pages(root)
     return [*lint_links(root, pages), *lint_named_files(root, pages), *lint_start_page(root, pages),
             *lint_pictures(root, pages), *lint_drawings(root), *lint_figures(root, pages), *lint_quotes(root, pages),
-            *lint_words(root)]
+            *lint_recipes(root), *lint_words(root)]
 
 def main(arguments):
     here = pathlib.Path(__file__).resolve()

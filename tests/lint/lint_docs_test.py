@@ -106,6 +106,21 @@ class Pages(unittest.TestCase):
         self.assertEqual(faults_of({"a.md": "<!-- from b.c -->\n```c\nf();\n```\n"}),
                          ["a.md:1: a quote stands in its file (b.c)"])
 
+    def test_a_recipe_names_few_files_that_exist_and_a_test_that_is_compiled(self):
+        files = {"core/x.cpp": "", "tests/core/x_test.cpp": "", "tests/CMakeLists.txt": "add(SOURCES core/x_test.cpp)",
+                 "CONTRIBUTING.md": "## How\n\n**an x** (of y)\n1. In `core/x.cpp`,\n2. `tests/core/x_test.cpp`.\n"}
+        self.assertEqual(faults_of(files), [])
+        more = " ".join(f"`core/{letter}.h`" for letter in "abcde")
+        headers = {f"core/{letter}.h": "" for letter in "abcde"}
+        files["CONTRIBUTING.md"] += f"\n**a y**\n`tests/core/x_test.cpp`, {more}\n"
+        self.assertEqual(faults_of({**files, **headers}), [])
+        files["CONTRIBUTING.md"] += "and `core/x.cpp`\n"
+        self.assertEqual(faults_of({**files, **headers}), ["CONTRIBUTING.md:7: a recipe names at most 6 files (7, a y)"])
+        for name, other in {"core/z.json": ["CONTRIBUTING.md:7: a file of a recipe exists (core/z.json)"], "core/x.cpp": []}.items():
+            files["CONTRIBUTING.md"] = f"\n\n\n\n\n\n**a y**\n`{name}`\n\n# After\n`tests/core/x_test.cpp` `core/n/a`\n"
+            self.assertEqual([fault for fault in faults_of(files) if "that a page names" not in fault], [
+                *other, "CONTRIBUTING.md:7: a recipe names a test or an example that is compiled (a y)"])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -11,7 +11,7 @@ namespace railcast {
 namespace {
 
 // After a change of a spec's description, regenerate the schemas with
-//   RAILCAST_WRITE_SCHEMAS=1 build/release/tests/core/scenario/scenario_test
+//   RAILCAST_WRITE_SCHEMAS=1 build/release/tests/core/core_tests
 //     --gtest_filter='ScenarioSchemas.*'
 TEST(ScenarioSchemas, ArePublishedAsTheReaderHasThem) {
   const auto folder = ScenariosDir() / "schema";
