@@ -5,11 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/loopback.h"
+
 namespace railcast {
 namespace {
 
-constexpr Endpoint kAnyPort{0x7F000001, 0};
-constexpr Endpoint kLoopbackPeer{0x7F000001, 0};
+constexpr Endpoint kLoopbackPeer = kAnyLoopbackPort;
 constexpr int kPatience_ms = 10'000;
 /// Long enough for a datagram to arrive over loopback.
 constexpr int kSilence_ms = 100;
@@ -27,12 +28,12 @@ class ChannelController {
   }
 
  private:
-  UdpReceiver port_{kAnyPort};
+  UdpReceiver port_{kAnyLoopbackPort};
   Endpoint channel_;
 };
 
 TEST(CommandChannel, AnswersACommandWhenItTookEffect) {
-  CommandChannel channel(kAnyPort, kLoopbackPeer);
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
   ChannelController controller(channel);
   controller.Say(
       "{\"session\": \"a\", \"id\": 7, \"command\": \"set_speed\", \"speed_mps\": 10}\n");
@@ -47,7 +48,7 @@ TEST(CommandChannel, AnswersACommandWhenItTookEffect) {
 }
 
 TEST(CommandChannel, TakesSeveralCommandsInOneDatagram) {
-  CommandChannel channel(kAnyPort, kLoopbackPeer);
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
   ChannelController controller(channel);
   controller.Say("{\"command\": \"stop\"}\n\n{\"command\": \"step\"}\n{\"command\": \"reset\"}");
   EXPECT_EQ(channel.Next(kPatience_ms)->command, Command(Stop{}));
@@ -57,7 +58,7 @@ TEST(CommandChannel, TakesSeveralCommandsInOneDatagram) {
 }
 
 TEST(CommandChannel, DoesARepeatedCommandOnceAndAnswersItEachTime) {
-  CommandChannel channel(kAnyPort, kLoopbackPeer);
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
   ChannelController controller(channel);
   const std::string step = "{\"session\": \"a\", \"id\": 1, \"command\": \"step\"}";
   controller.Say(step);
@@ -75,7 +76,7 @@ TEST(CommandChannel, DoesARepeatedCommandOnceAndAnswersItEachTime) {
 }
 
 TEST(CommandChannel, DoesTheCommandsOfAClientThatBeganAnewOnItsPort) {
-  CommandChannel channel(kAnyPort, kLoopbackPeer);
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
   ChannelController controller(channel);
   controller.Say(R"({"session": "before", "id": 1, "command": "stop"})");
   const auto before = channel.Next(kPatience_ms);
@@ -91,7 +92,7 @@ TEST(CommandChannel, DoesTheCommandsOfAClientThatBeganAnewOnItsPort) {
 }
 
 TEST(CommandChannel, TakesAnIdForOneCommandOfItsSession) {
-  CommandChannel channel(kAnyPort, kLoopbackPeer);
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
   ChannelController controller(channel);
   controller.Say(R"({"session": "a", "id": 1, "command": "step"})");
   const auto request = channel.Next(kPatience_ms);
@@ -111,7 +112,7 @@ TEST(CommandChannel, TakesAnIdForOneCommandOfItsSession) {
 }
 
 TEST(CommandChannel, DoesTheSameIdOfAnotherPort) {
-  CommandChannel channel(kAnyPort, kLoopbackPeer);
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
   ChannelController first(channel);
   ChannelController second(channel);
   first.Say("{\"session\": \"a\", \"id\": 1, \"command\": \"stop\"}");
@@ -121,7 +122,7 @@ TEST(CommandChannel, DoesTheSameIdOfAnotherPort) {
 }
 
 TEST(CommandChannel, SaysWhatIsWrongWithACommand) {
-  CommandChannel channel(kAnyPort, kLoopbackPeer);
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
   ChannelController controller(channel);
   controller.Say("{\"session\": \"a\", \"id\": 3, \"command\": \"set_speed\", \"speed_mps\": -1}");
   const std::string answer = controller.Hear();
@@ -131,7 +132,7 @@ TEST(CommandChannel, SaysWhatIsWrongWithACommand) {
 }
 
 TEST(CommandChannel, SaysWhyACommandHadNoEffect) {
-  CommandChannel channel(kAnyPort, kLoopbackPeer);
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
   ChannelController controller(channel);
   controller.Say(
       "{\"session\": \"a\", \"id\": 4, \"command\": \"remove_object\", \"name\": \"ghost\"}");
@@ -146,7 +147,7 @@ TEST(CommandChannel, SaysWhyACommandHadNoEffect) {
 
 TEST(CommandChannel, HearsNobodyButItsPeer) {
   constexpr Endpoint kElsewhere{0x7F000002, 0};
-  CommandChannel channel(kAnyPort, kElsewhere);
+  CommandChannel channel(kAnyLoopbackPort, kElsewhere);
   ChannelController stranger(channel);
   stranger.Say("{\"session\": \"a\", \"id\": 1, \"command\": \"stop\"}");
   EXPECT_EQ(stranger.Hear(kSilence_ms), "");
@@ -158,8 +159,8 @@ TEST(CommandChannel, HearsNobodyButItsPeer) {
 }
 
 TEST(CommandChannel, HearsOnlyThePortItWasTold) {
-  UdpReceiver peer(kAnyPort);
-  CommandChannel channel(kAnyPort, peer.at());
+  UdpReceiver peer(kAnyLoopbackPort);
+  CommandChannel channel(kAnyLoopbackPort, peer.at());
   ChannelController stranger(channel);
   stranger.Say("{\"command\": \"stop\"}");
   EXPECT_FALSE(channel.Next(kSilence_ms).has_value());
@@ -169,7 +170,7 @@ TEST(CommandChannel, HearsOnlyThePortItWasTold) {
 }
 
 TEST(CommandChannel, KeepsHearingAfterWhatIsNoCommand) {
-  CommandChannel channel(kAnyPort, kLoopbackPeer);
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
   ChannelController controller(channel);
   controller.Say(std::string(60'000, '['));
   controller.Say(std::string("\0\xff\xfe{\"id\":", 9));
@@ -180,7 +181,7 @@ TEST(CommandChannel, KeepsHearingAfterWhatIsNoCommand) {
 }
 
 TEST(CommandChannel, AnswersNoAnswer) {
-  CommandChannel channel(kAnyPort, kLoopbackPeer);
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
   ChannelController controller(channel);
   const std::vector<std::string> lines = {
       "{}", "dance", std::string(9000, '['), std::string(100, '\n') + std::string(200, 'x'),
@@ -205,7 +206,7 @@ TEST(CommandChannel, AnswersNoAnswer) {
 }
 
 TEST(CommandChannel, AnswersADatagramOfTooManyLinesOnce) {
-  CommandChannel channel(kAnyPort, kLoopbackPeer);
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
   ChannelController controller(channel);
   std::string many;
   for (int i = 0; i < 30'000; ++i) many += "x\n";
@@ -216,7 +217,7 @@ TEST(CommandChannel, AnswersADatagramOfTooManyLinesOnce) {
 }
 
 TEST(CommandChannel, KnowsACommandThatWaitsWhateverComesMeanwhile) {
-  CommandChannel channel(kAnyPort, kLoopbackPeer);
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
   ChannelController controller(channel);
   controller.Say("{\"session\": \"a\", \"id\": 1, \"command\": \"stop\"}");
   for (std::size_t id = 2; id < CommandChannel::kMaxAnswers + 10; ++id) {
@@ -230,7 +231,7 @@ TEST(CommandChannel, KnowsACommandThatWaitsWhateverComesMeanwhile) {
 }
 
 TEST(CommandChannel, RefusesMoreThanItCanHold) {
-  CommandChannel channel(kAnyPort, kLoopbackPeer);
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
   ChannelController controller(channel);
   std::string many;
   for (std::size_t i = 0; i < CommandChannel::kMaxLines; ++i) many += "{\"command\":\"stop\"}\n";

@@ -18,10 +18,10 @@
 #include "railcast/io/stream.h"
 #include "tests/generator/project_folder.h"
 #include "tests/generator/run_command.h"
+#include "tests/support/loopback.h"
 
 namespace railcast {
 
-inline constexpr Endpoint kAnyLoopbackPort{0x7F000001, 0};
 inline constexpr int kPatience_ms = 20'000;
 
 // A coarse scan at 20 Hz of a wagon 40 m ahead of a vehicle at 10 m/s, in vehicle axes.

@@ -10,9 +10,9 @@
 #include "core/extras/packets/spinning/spinning_decoder.h"
 #include "core/extras/packets/velodyne/velodyne_packet.h"
 #include "railcast/io/stream.h"
-#include "tests/core/io/net/ipv6_loopback.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/live/live_process.h"
+#include "tests/support/loopback.h"
 
 namespace railcast {
 namespace {

@@ -5,13 +5,11 @@
 #include <string>
 
 #include "tests/core/io/message_of.h"
-#include "tests/core/io/net/ipv6_loopback.h"
+#include "tests/support/loopback.h"
 #include "tests/support/run_command.h"
 
 namespace railcast {
 namespace {
-
-constexpr Endpoint kFreeLoopbackPort{0x7F000001, 0};
 
 HttpAnswer Echo(const HttpRequest& request) {
   return {request.target == "/none" ? 404U : 200U,
@@ -28,7 +26,7 @@ std::string Python(const HttpServer& server, const std::string& program) {
 
 // http.client is Python's own.
 TEST(HttpServer, AnswersAClientThatKeepsItsConnection) {
-  const HttpServer server(kFreeLoopbackPort, Echo);
+  const HttpServer server(kAnyLoopbackPort, Echo);
   EXPECT_EQ(Python(server, R"(
 client = http.client.HTTPConnection("127.0.0.1", port, timeout=20)
 for method, target, body in (("GET", "/a?b=c", None), ("POST", "/config", "{}"), ("GET", "/none", None)):
@@ -41,7 +39,7 @@ for method, target, body in (("GET", "/a?b=c", None), ("POST", "/config", "{}"),
 }
 
 TEST(HttpServer, ServesManyClientsAtOnceAndAfterEachOther) {
-  const HttpServer server(kFreeLoopbackPort, Echo);
+  const HttpServer server(kAnyLoopbackPort, Echo);
   EXPECT_EQ(Python(server, R"(
 good = []
 def ask(i):
@@ -58,7 +56,7 @@ print(len(good), all(good)))"),
 
 // Requests that are no HTTP, too long, or never end, do not keep others from being served.
 TEST(HttpServer, ClosesConnectionsThatAskTooMuch) {
-  const HttpServer server(kFreeLoopbackPort, Echo);
+  const HttpServer server(kAnyLoopbackPort, Echo);
   EXPECT_EQ(Python(server, R"(
 def send(data):
     with socket.create_connection(("127.0.0.1", port), timeout=20) as sock:
@@ -79,7 +77,7 @@ print(send(b"GET /still HTTP/1.1\r\n\r\n")))"),
 // nobody would be answered until they are given up, after kPatience_s.
 TEST(HttpServer, AnswersBesideHundredsOfConnectionsThatAskNothing) {
   static_assert(HttpServer::kMaxConnections < 300 && HttpServer::kPatience_s > 8);
-  const HttpServer server(kFreeLoopbackPort, Echo);
+  const HttpServer server(kAnyLoopbackPort, Echo);
   EXPECT_EQ(Python(server, R"(
 idle = [socket.create_connection(("127.0.0.1", port), timeout=8) for _ in range(300)]
 for i in range(3):
@@ -104,7 +102,7 @@ print(client.getresponse().read().decode()))"),
 }
 
 TEST(HttpServer, SaysThatAPortIsTaken) {
-  const HttpServer server(kFreeLoopbackPort, Echo);
+  const HttpServer server(kAnyLoopbackPort, Echo);
   EXPECT_EQ(MessageOf([&] { const HttpServer other(server.at(), Echo); }),
             EndpointText(server.at()) + ": Address already in use");
 }

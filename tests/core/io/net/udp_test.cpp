@@ -17,13 +17,12 @@
 #include "core/io/net/socket.h"
 #include "core/io/net/udp.h"
 #include "tests/core/io/message_of.h"
-#include "tests/core/io/net/ipv6_loopback.h"
+#include "tests/support/loopback.h"
 #include "tests/support/made_datagrams.h"
 
 namespace railcast {
 namespace {
 
-constexpr Endpoint kAnyLoopbackPort{0x7F000001, 0};
 constexpr int kPatience_ms = 10'000;
 
 // Makes datagrams of these sizes, each filled with its own index.

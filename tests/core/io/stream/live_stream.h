@@ -6,10 +6,9 @@
 
 #include "core/io/net/udp.h"
 #include "tests/core/io/stream/stream_example.h"
+#include "tests/support/loopback.h"
 
 namespace railcast {
-
-inline constexpr Endpoint kAnyLoopbackPort = {0x7F000001, 0};
 
 /// Sends example frames to a port of this machine.
 class LiveStream {

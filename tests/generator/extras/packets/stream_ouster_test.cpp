@@ -11,9 +11,9 @@
 #include "core/io/net/udp.h"
 #include "core/io/write_file.h"
 #include "railcast/io/recording.h"
-#include "tests/core/io/net/ipv6_loopback.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/live/live_process.h"
+#include "tests/support/loopback.h"
 #include "tests/support/ouster_metadata_text.h"
 
 namespace railcast {

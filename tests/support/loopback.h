@@ -7,6 +7,9 @@
 
 namespace railcast {
 
+/// Any port at 127.0.0.1.
+inline constexpr Endpoint kAnyLoopbackPort{0x7F000001, 0};
+
 /// Any port at ::1, or nothing on a machine without IPv6 there.
 inline std::optional<Endpoint> AnyIpv6LoopbackPort() {
   const Endpoint any{ParseEndpoint("[::1]:1", 1).address, 0};
