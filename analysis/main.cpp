@@ -5,33 +5,23 @@
 
 namespace {
 
-/// Adds a command of an extra. In a build without it, the command says so.
-void AddOfExtra(const std::string& extra,
-                const std::string& name,
-                railcast::ProgramOptions& app,
-                railcast::ProgramCommand& command) {
-  const auto& commands = railcast::AnalysisExtras::Get().commands;
-  if (const auto found = commands.find(name); found != commands.end()) {
-    found->second(app, command);
-    return;
-  }
-  railcast::AddMissingCommand(name, extra, app, command);
-}
-
 void AddCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& command) {
+  const auto add_of_extra = [&](const std::string& extra, const std::string& name) {
+    railcast::AddExtraCommand(railcast::AnalysisExtras::Get().commands, name, extra, app, command);
+  };
   app.RequireCommand();
   railcast::AddStats(app, command);
   railcast::AddInspect(app, command);
-  AddOfExtra("card", "card", app, command);
+  add_of_extra("card", "card");
   railcast::AddCompare(app, command);
   railcast::AddDetect(app, command);
-  AddOfExtra("detectors", "evaluate", app, command);
-  AddOfExtra("sight", "sight", app, command);
-  AddOfExtra("study", "study", app, command);
-  AddOfExtra("dossier", "dossier", app, command);
-  AddOfExtra("fit", "fit", app, command);
+  add_of_extra("detectors", "evaluate");
+  add_of_extra("sight", "sight");
+  add_of_extra("study", "study");
+  add_of_extra("dossier", "dossier");
+  add_of_extra("fit", "fit");
   railcast::AddFrontier(app, command);
-  AddOfExtra("preset", "preset", app, command);
+  add_of_extra("preset", "preset");
   railcast::AddReceive(app, command);
   railcast::AddVerify(app, command);
 }

@@ -84,45 +84,28 @@ Option ProgramOptions::AddOption(const std::string& names,
 }
 
 // The values that options have.
-template Option ProgramOptions::AddOption(const std::string&, int&, const std::string&);
-template Option ProgramOptions::AddOption(const std::string&, double&, const std::string&);
-template Option ProgramOptions::AddOption(const std::string&, std::uint16_t&, const std::string&);
-template Option ProgramOptions::AddOption(const std::string&, std::uint32_t&, const std::string&);
-template Option ProgramOptions::AddOption(const std::string&, std::uint64_t&, const std::string&);
-template Option ProgramOptions::AddOption(const std::string&, std::string&, const std::string&);
-template Option ProgramOptions::AddOption(const std::string&,
-                                          std::filesystem::path&,
-                                          const std::string&);
-template Option ProgramOptions::AddOption(const std::string&,
-                                          std::optional<double>&,
-                                          const std::string&);
-template Option ProgramOptions::AddOption(const std::string&,
-                                          std::optional<std::uint16_t>&,
-                                          const std::string&);
-template Option ProgramOptions::AddOption(const std::string&,
-                                          std::optional<std::uint32_t>&,
-                                          const std::string&);
-template Option ProgramOptions::AddOption(const std::string&,
-                                          std::optional<std::uint64_t>&,
-                                          const std::string&);
-template Option ProgramOptions::AddOption(const std::string&,
-                                          std::optional<std::string>&,
-                                          const std::string&);
-template Option ProgramOptions::AddOption(const std::string&,
+using OptionText = const std::string&;
+template Option ProgramOptions::AddOption(OptionText, int&, OptionText);
+template Option ProgramOptions::AddOption(OptionText, double&, OptionText);
+template Option ProgramOptions::AddOption(OptionText, std::uint16_t&, OptionText);
+template Option ProgramOptions::AddOption(OptionText, std::uint32_t&, OptionText);
+template Option ProgramOptions::AddOption(OptionText, std::uint64_t&, OptionText);
+template Option ProgramOptions::AddOption(OptionText, std::string&, OptionText);
+template Option ProgramOptions::AddOption(OptionText, std::filesystem::path&, OptionText);
+template Option ProgramOptions::AddOption(OptionText, std::optional<double>&, OptionText);
+template Option ProgramOptions::AddOption(OptionText, std::optional<std::uint16_t>&, OptionText);
+template Option ProgramOptions::AddOption(OptionText, std::optional<std::uint32_t>&, OptionText);
+template Option ProgramOptions::AddOption(OptionText, std::optional<std::uint64_t>&, OptionText);
+template Option ProgramOptions::AddOption(OptionText, std::optional<std::string>&, OptionText);
+template Option ProgramOptions::AddOption(OptionText,
                                           std::optional<std::filesystem::path>&,
-                                          const std::string&);
-template Option ProgramOptions::AddOption(const std::string&,
-                                          std::vector<double>&,
-                                          const std::string&);
-template Option ProgramOptions::AddOption(const std::string&,
-                                          std::vector<int>&,
-                                          const std::string&);
-template Option ProgramOptions::AddOption(const std::string&,
-                                          std::vector<std::string>&,
-                                          const std::string&);
-template Option ProgramOptions::AddOption(const std::string&,
+                                          OptionText);
+template Option ProgramOptions::AddOption(OptionText, std::vector<double>&, OptionText);
+template Option ProgramOptions::AddOption(OptionText, std::vector<int>&, OptionText);
+template Option ProgramOptions::AddOption(OptionText, std::vector<std::string>&, OptionText);
+template Option ProgramOptions::AddOption(OptionText,
                                           std::vector<std::filesystem::path>&,
-                                          const std::string&);
+                                          OptionText);
 
 Option ProgramOptions::AddText(const std::string& names,
                                const std::function<void(const std::string& text)>& use,

@@ -200,10 +200,15 @@ int ProgramMain(const ProgramSpec& spec, int argc, char** argv) {
       spec.name, [&] { return ParseAndRun(spec, argc, argv); }, std::cerr);
 }
 
-void AddMissingCommand(const std::string& name,
-                       const std::string& extra,
-                       ProgramOptions& app,
-                       ProgramCommand& command) {
+void AddExtraCommand(const ExtraCommands& built,
+                     const std::string& name,
+                     const std::string& extra,
+                     ProgramOptions& app,
+                     ProgramCommand& command) {
+  if (const auto found = built.find(name); found != built.end()) {
+    found->second(app, command);
+    return;
+  }
   app.AddForeignCommand(name, "Not installed").WhenParsed([&command, name, extra] {
     command = [name, extra](const std::string& /*all*/) -> int { throw LacksExtra(name, extra); };
   });

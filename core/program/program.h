@@ -4,7 +4,9 @@
 
 #include <functional>
 #include <iosfwd>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/program/options.h"
@@ -50,11 +52,17 @@ inline constexpr int kExitInterrupted = 130;  ///< The status of shells after Ct
 /// @throws InputError on bad input.
 using ProgramCommand = std::function<int(const std::string& command_line)>;
 
-/// Adds a command of an extra that this railcast lacks: it says so.
-void AddMissingCommand(const std::string& name,
-                       const std::string& extra,
-                       ProgramOptions& app,
-                       ProgramCommand& command);
+/// The commands that extras add to a program: by its name, what adds a command with its options.
+using ExtraCommands =
+    std::map<std::string_view, void (*)(ProgramOptions& app, ProgramCommand& command)>;
+
+/// Adds a command of an extra. In a railcast without the extra, the command says so.
+/// @param built All that there are in this railcast.
+void AddExtraCommand(const ExtraCommands& built,
+                     const std::string& name,
+                     const std::string& extra,
+                     ProgramOptions& app,
+                     ProgramCommand& command);
 
 /// What distinguishes one program from another.
 struct ProgramSpec {

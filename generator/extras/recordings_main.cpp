@@ -12,11 +12,7 @@ void AddCommandsOfRecordings(railcast::ProgramOptions& app, railcast::ProgramCom
   const auto& built = railcast::RecordingCommands::Get().commands;
   for (const railcast::OwnProgram& own : railcast::kOwnPrograms) {
     if (own.program != std::string_view("railcast-recordings")) continue;
-    if (const auto found = built.find(own.command); found != built.end()) {
-      found->second(app, command);
-    } else {
-      railcast::AddMissingCommand(own.command, own.extra, app, command);
-    }
+    railcast::AddExtraCommand(built, own.command, own.extra, app, command);
   }
 }
 
