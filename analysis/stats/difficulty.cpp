@@ -9,6 +9,7 @@
 
 #include "analysis/estimate/estimate.h"
 #include "analysis/report/chart_columns.h"
+#include "analysis/stats/sums.h"
 
 namespace railcast {
 namespace {
@@ -46,7 +47,7 @@ constexpr std::array<KittiLimits, 3> kKittiLimits = {
 constexpr std::array<double, 3> kTruncationLimits = {0.15, 0.30, 0.50};
 constexpr std::array<std::uint32_t, 4> kPointLimits = {100, 20, 5, 0};
 
-struct Interval {
+struct AngleSpan {
   double low;
   double high;
 
@@ -54,20 +55,19 @@ struct Interval {
 };
 
 // From the least to the greatest of the values that are known, half a step farther on either side.
-Interval SpanOf(std::span<const double> values, double step) {
-  Interval interval{std::numeric_limits<double>::infinity(),
-                    -std::numeric_limits<double>::infinity()};
+AngleSpan SpanOf(std::span<const double> values, double step) {
+  AngleSpan span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const double value : values) {
     if (std::isnan(value)) continue;
-    interval.low = std::min(interval.low, value - 0.5 * step);
-    interval.high = std::max(interval.high, value + 0.5 * step);
+    span.low = std::min(span.low, value - 0.5 * step);
+    span.high = std::max(span.high, value + 0.5 * step);
   }
-  return interval;
+  return span;
 }
 
 // Where the firings of a grid go.
 struct FieldOfView {
-  Interval elevation_rad, azimuth_rad;
+  AngleSpan elevation_rad, azimuth_rad;
   bool is_full_turn;
 
   explicit FieldOfView(const ScanTable& scan)
