@@ -42,7 +42,7 @@ Frames ChooseFrames(const ScenarioSpec& scenario, const Simulator& simulator) {
 }
 
 /// Something that may be left out.
-struct Candidate {
+struct Omittable {
   std::string name;
   double saving;           // Instructions per firing.
   const Effect* effect{};  // Null for the larger number of sub-rays.
@@ -52,7 +52,7 @@ struct Candidate {
 struct Candidates {
   EffectSet full;  // The set with all of them on.
   int footprint_rays{};
-  std::vector<Candidate> all;
+  std::vector<Omittable> all;
 
   [[nodiscard]] EffectSet Without(Omissions left_out) const {
     EffectSet effects = full;
@@ -237,7 +237,7 @@ FidelityChoice ChooseFidelity(Simulator& simulator,
   Comparer comparer(simulator, scenario, ReferenceOf(candidates.full));
   comparer.UseFrames(frames.samples, advance);
   std::vector<double> savings;
-  for (const Candidate& candidate : candidates.all) savings.push_back(candidate.saving);
+  for (const Omittable& candidate : candidates.all) savings.push_back(candidate.saving);
   EffectSearchResult found = FindOmissions(
       savings, scenario.tolerance,
       [&](const std::vector<Omissions>& sets) { return comparer.Measure(candidates, sets); });

@@ -13,12 +13,12 @@
 namespace railcast {
 namespace {
 
-struct Header {
+struct LogHeader {
   int railcast_commands{};
   std::string scenario_xxh3;
 };
 
-void Describe(Archive& a, Header& s) {
+void Describe(Archive& a, LogHeader& s) {
   a.Required("railcast_commands", s.railcast_commands, "Version of the log.", OneNumberOf({1, 2}));
   a.Required("scenario_xxh3", s.scenario_xxh3, "The scenario that was run.", NonEmptyString());
 }
@@ -68,7 +68,7 @@ class LogLines {
       source.FaultWithoutValue(root, R"(must be {"railcast_commands": 2, "scenario_xxh3": ...})");
       return;
     }
-    Header header;
+    LogHeader header;
     if (auto list = source.PlainMembers(root)) {
       ReadMembers(source, root, std::move(*list), header);
     }

@@ -16,9 +16,9 @@ constexpr std::size_t kMaxCorners = 5000;
 using Triangle = std::array<Vector3, 3>;
 
 /// Sets of corners that triangles join.
-class Joined {
+class JoinedVertices {
  public:
-  explicit Joined(std::size_t num) : parent_(num) {
+  explicit JoinedVertices(std::size_t num) : parent_(num) {
     std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   }
   [[nodiscard]] std::size_t SetOf(std::size_t item) {
@@ -62,7 +62,7 @@ std::vector<std::size_t> PlacesOfVertices(const Mesh& mesh) {
 /// together. Triangles without area are left out.
 std::vector<std::vector<Corners>> GatherPieces(const Mesh& mesh) {
   const std::vector<std::size_t> places = PlacesOfVertices(mesh);
-  Joined joined(mesh.vertices.size());
+  JoinedVertices joined(mesh.vertices.size());
   std::vector<Corners> triangles;
   for (const auto& indices : mesh.triangles) {
     const Corners corners = {places[indices[0]], places[indices[1]], places[indices[2]]};

@@ -83,8 +83,8 @@ TEST(NearThreshold, AHardThresholdLetsTheWholeWallAppear) {
 
 // A retroreflector ten thousand times as bright as the dark wall that it hangs on.
 
-constexpr std::uint16_t kDark = 1;
-constexpr std::uint16_t kRetro = 2;
+constexpr std::uint16_t kDarkWall = 1;
+constexpr std::uint16_t kBrightSheet = 2;
 constexpr std::uint32_t kWallLabel = 1;
 constexpr std::uint32_t kSheetLabel = 2;
 constexpr double kSigma_rad = 0.75e-3;  // For a beam of 3 mrad.
@@ -99,15 +99,15 @@ std::shared_ptr<SimpleWorld> SheetBesideWall(double range_m) {
   const auto x = static_cast<float>(range_m);
   const float h = 0.2F * x;
   return WorldOfParts({{{{{x, -h, -h}, {x, 0, -h}, {x, 0, h}, {x, -h, h}}, {{0, 1, 2}, {0, 2, 3}}},
-                        kDark,
+                        kDarkWall,
                         kWallLabel},
                        {{{{x, 0, -h}, {x, h, -h}, {x, h, h}, {x, 0, h}}, {{0, 1, 2}, {0, 2, 3}}},
-                        kRetro,
+                        kBrightSheet,
                         kSheetLabel}});
 }
 
 enum class Rung { kSurface, kFootprint, kReference };
-constexpr Rung kPhysicalRungs[] = {Rung::kSurface, Rung::kFootprint, Rung::kReference};
+constexpr Rung kRungsOfPhysics[] = {Rung::kSurface, Rung::kFootprint, Rung::kReference};
 
 SimulatorSpec Spec(Rung rung) {
   SimulatorSpec spec{.detector = {.range_max_m = 5000.0,
@@ -135,7 +135,7 @@ double AzimuthOf_rad(const Frame& frame, std::size_t slot) {
 
 // The farthest of 256 sub-rays is 3.54 sigma off the axis.
 TEST(Retroreflector, LeaksIntoNoBeamBeyondTheFootprint) {
-  for (const Rung rung : kPhysicalRungs) {
+  for (const Rung rung : kRungsOfPhysics) {
     const Frame frame = ScanAt(100.0, Spec(rung));
     std::size_t checked = 0;
     for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
@@ -165,7 +165,7 @@ TEST(Retroreflector, GivesABeamOnItsEdgeItsShareOfTheLight) {
 TEST(Retroreflector, IsNeitherClampedNorInfinite) {
   RecordRegime("a retroreflector 10,000 times as bright as the wall behind",
                {"-", "intensity neither clamped nor infinite; no light in beams beyond 3.6 σ"});
-  for (const Rung rung : kPhysicalRungs) {
+  for (const Rung rung : kRungsOfPhysics) {
     for (const double range_m : {0.6, 10.0, 1000.0}) {
       const Frame frame = ScanAt(range_m, Spec(rung));
       ExpectSoundSlots(frame, 0.5F, 5000.0F);
@@ -184,7 +184,7 @@ TEST(Retroreflector, IsNeitherClampedNorInfinite) {
 
 // The signal would suffice for 20 km; the gate ends at 5 km.
 TEST(Retroreflector, IsSeenUpToTheRangeGate) {
-  for (const Rung rung : kPhysicalRungs) {
+  for (const Rung rung : kRungsOfPhysics) {
     SimulatorSpec spec = Spec(rung);
     spec.detector.effects.range_noise = false;
     const auto count = [&](double range_m) {

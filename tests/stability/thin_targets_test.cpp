@@ -21,7 +21,7 @@ namespace railcast {
 namespace {
 
 constexpr double kRanges_m[] = {1.0, 3.0, 10.0, 30.0, 100.0, 300.0};
-constexpr std::uint16_t kGrey = 2;  // Reflectivity 0.5.
+constexpr std::uint16_t kTargetGrey = 2;  // Reflectivity 0.5.
 constexpr double kReflectance = 0.5;
 constexpr double kWireRadius_m = 0.006;
 
@@ -52,14 +52,14 @@ std::shared_ptr<SimpleWorld> WireAcross(double range_m) {
   const Vector3 begin(range_m, -half_m, -kWireSlope * half_m);
   const Vector3 end(range_m, half_m, kWireSlope * half_m);
   world->wires = {
-      {.material = kGrey, .label = 7, .radius_m = kWireRadius_m, .points_m = {begin, end}}};
+      {.material = kTargetGrey, .label = 7, .radius_m = kWireRadius_m, .points_m = {begin, end}}};
   Mesh tube = MakeCylinder(kWireRadius_m, (end - begin).norm() / 2.0, 16);
   const auto along_wire = Eigen::Quaternionf::FromTwoVectors(
       Eigen::Vector3f::UnitZ(), (end - begin).normalized().cast<float>());
   for (auto& vertex : tube.vertices) {
     vertex = along_wire * vertex + Eigen::Vector3f(static_cast<float>(range_m), 0.0F, 0.0F);
   }
-  world->ground.parts = {{tube, kGrey, 7, true}};
+  world->ground.parts = {{tube, kTargetGrey, 7, true}};
   return world;
 }
 
@@ -109,7 +109,7 @@ TEST(ThinTargets, AWireDimsTheWallBehindItAndHidesBehindAWallInFront) {
   const ScanPattern pattern = MakeRaster(0.2, 0.2, 0.02);
   for (const double wall_m : {90.0, 110.0}) {
     auto world = WireAcross(100.0);
-    world->ground.parts.push_back({MakeWall(static_cast<float>(wall_m), 20.0F), kGrey, 8});
+    world->ground.parts.push_back({MakeWall(static_cast<float>(wall_m), 20.0F), kTargetGrey, 8});
     SimulatorSpec spec = SpecWith(kBeam);
     spec.detector.receiver.return_mode = ReturnMode::kDual;
     const Frame frame = ScanOnce(world, pattern, spec);
@@ -238,7 +238,7 @@ TEST(ThinTargets, APoleTakesItsShareOfTheBeamsThatMeetIt) {
       vertex.x() += static_cast<float>(range_m * std::cos(azimuth_rad));
       vertex.y() += static_cast<float>(range_m * std::sin(azimuth_rad));
     }
-    const auto world = WorldOfParts({{pole, kGrey, 7}});
+    const auto world = WorldOfParts({{pole, kTargetGrey, 7}});
     // Apparent half width: the tangents touch the pole in front of its axis.
     const double half_rad = std::asin(kRadius_m / range_m);
     for (const bool is_dense : {false, true}) {
@@ -259,8 +259,10 @@ TEST(ThinTargets, APoleTakesItsShareOfTheBeamsThatMeetIt) {
 TEST(ThinTargets, APlatesEdgeFadesAsTheBeamsProfileAtAnyRange) {
   for (const double range_m : kRanges_m) {
     const auto x = static_cast<float>(range_m);
-    const auto world = WorldOfParts(
-        {{{{{x, -x, -x}, {x, 0, -x}, {x, 0, x}, {x, -x, x}}, {{0, 1, 2}, {0, 2, 3}}}, kGrey, 7}});
+    const auto world =
+        WorldOfParts({{{{{x, -x, -x}, {x, 0, -x}, {x, 0, x}, {x, -x, x}}, {{0, 1, 2}, {0, 2, 3}}},
+                       kTargetGrey,
+                       7}});
     for (const bool is_dense : {false, true}) {
       for (const Column& column : SharesByColumn(world, is_dense ? kDenseBeam : kBeam)) {
         const double expected = Phi(-column.azimuth_rad / kBeamSigma_rad);

@@ -24,15 +24,15 @@ constexpr double kLeastApart_m = 0.1;
 constexpr double kShortestSpan_m = 5.0;
 
 /// The axis from a support onwards, sampled every max_span / 26.
-struct Course {
+struct WireCourse {
   std::array<double, kStepsOfASpan + 1> curvature_per_m{};
   /// c(s): lateral position of a pantograph's middle relative to the tangent at the support.
   std::array<double, kStepsOfASpan + 1> lateral_m{};
 };
 
-Course CourseFrom(double s_m, const CatenarySpec& spec, const Alignment& alignment) {
+WireCourse CourseFrom(double s_m, const CatenarySpec& spec, const Alignment& alignment) {
   const double step_m = spec.max_span_m / static_cast<double>(kStepsOfASpan);
-  Course course;
+  WireCourse course;
   double heading_rad = 0.0;
   double axis_m = 0.0;
   double previous_per_m = 0.0;
@@ -51,7 +51,7 @@ Course CourseFrom(double s_m, const CatenarySpec& spec, const Alignment& alignme
   return course;
 }
 
-bool StaysWithin(const Course& course,
+bool StaysWithin(const WireCourse& course,
                  std::size_t num_steps,
                  double first_stagger_m,
                  double last_stagger_m,
@@ -120,7 +120,7 @@ class SupportSearch {
     // The 1e-9 covers rounding if a span at the limit is compared with the limit itself.
     const double limit_m = spec.stagger_m + kLateralMargin_m + 1e-9;
     const double first_m = from.support.stagger_m;
-    const Course& course = CourseOf(from.support.s_m);
+    const WireCourse& course = CourseOf(from.support.s_m);
     std::optional<PlannedSupport> in_road;
     for (std::size_t num_steps = kStepsOfASpan; num_steps > 0; --num_steps) {
       const double s_m = from.support.s_m + spec.max_span_m * static_cast<double>(num_steps) /
@@ -139,7 +139,7 @@ class SupportSearch {
     return in_road;
   }
 
-  [[nodiscard]] const Course& CourseOf(double s_m) {
+  [[nodiscard]] const WireCourse& CourseOf(double s_m) {
     const auto found = courses_.find(s_m);
     if (found != courses_.end()) return found->second;
     return courses_.emplace(s_m, CourseFrom(s_m, world_.catenary, alignment_)).first->second;
@@ -176,7 +176,7 @@ class SupportSearch {
   IndependentWires own_;
   // What was computed behind the last support: supports are tried again and again.
   IndependentWires::KnownHangers known_;
-  std::map<double, Course> courses_;
+  std::map<double, WireCourse> courses_;
 };
 
 }  // namespace

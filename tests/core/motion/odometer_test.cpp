@@ -23,7 +23,7 @@ constexpr double kSpeedingUp_m = 100.0;
 constexpr double kCruising_m = 80.0;
 constexpr double kSlowingDown_m = 62.5;
 
-std::int64_t Ns(double time_s) {
+std::int64_t AtNs(double time_s) {
   return static_cast<std::int64_t>(std::llround(time_s * 1e9));
 }
 
@@ -36,13 +36,13 @@ OdometerSample SampleAt(const ScenarioSpec& scenario, const OdometerSpec& spec, 
 TEST(TrackOdometry, KnowsDistanceSpeedAndHowTheyCameAbout) {
   const auto world = MakeWorld(StartAndStop());
   const TrackOdometry odometry(*world);
-  EXPECT_EQ(odometry.At(*world, Ns(1.0)).distance_m, 0.0);
-  const TrackOdometry::State cruising = odometry.At(*world, Ns(25.0));
+  EXPECT_EQ(odometry.At(*world, AtNs(1.0)).distance_m, 0.0);
+  const TrackOdometry::State cruising = odometry.At(*world, AtNs(25.0));
   EXPECT_NEAR(cruising.distance_m, kSpeedingUp_m + 30.0, 1e-9);
   EXPECT_NEAR(cruising.speed_mps, 10.0, 1e-9);
   EXPECT_NEAR(cruising.speeding_up_m, kSpeedingUp_m, 1e-9);
   EXPECT_NEAR(cruising.work_m2_per_s2, 50.0, 1e-9);
-  const TrackOdometry::State at_end = odometry.At(*world, Ns(60.0));
+  const TrackOdometry::State at_end = odometry.At(*world, AtNs(60.0));
   EXPECT_NEAR(at_end.distance_m, kSpeedingUp_m + kCruising_m + kSlowingDown_m, 1e-9);
   EXPECT_NEAR(at_end.slowing_down_m, kSlowingDown_m, 1e-9);
   EXPECT_NEAR(at_end.work_m2_per_s2, 0.0, 1e-9);
@@ -56,7 +56,7 @@ TEST(TrackOdometry, IsMeasuredAlongTheVehiclesOwnTrackInSpace) {
   spec.world.alignment.gradients_permil = {{0.0, 30.0}};
   Drive({SpeedAt(0, 10)}, spec);
   const auto world = MakeWorld(spec);
-  const TrackOdometry::State state = TrackOdometry(*world).At(*world, Ns(20.0));
+  const TrackOdometry::State state = TrackOdometry(*world).At(*world, AtNs(20.0));
   const double expected_m = std::hypot(200.0 * 404.0 / 400.0, 200.0 * 0.03);
   // The chords between samples of the track every metre are too short by 1 / (24 R^2).
   EXPECT_NEAR(state.distance_m, expected_m, expected_m / (24.0 * 400.0 * 400.0) + 1e-6);
@@ -67,11 +67,11 @@ TEST(TrackOdometry, IsMeasuredAlongTheVehiclesOwnTrackInSpace) {
 TEST(TrackOdometry, GoesOnWhereACommandChangesTheSpeed) {
   const auto world = MakeWorld(StartAndStop());
   const TrackOdometry odometry(*world);
-  const auto braking = world->WithVehicleSpeed(Ns(25.0), 4.0, 1.0);
-  const auto again = braking->WithVehicleSpeed(Ns(28.0), 6.0, 0.5);
-  EXPECT_NEAR(odometry.At(*braking, Ns(25.0)).distance_m, kSpeedingUp_m + 30.0, 1e-9);
+  const auto braking = world->WithVehicleSpeed(AtNs(25.0), 4.0, 1.0);
+  const auto again = braking->WithVehicleSpeed(AtNs(28.0), 6.0, 0.5);
+  EXPECT_NEAR(odometry.At(*braking, AtNs(25.0)).distance_m, kSpeedingUp_m + 30.0, 1e-9);
   // From 10 to 7 m/s in 3 s, and then up to 6 m/s: that is further down at 0.5 m/s^2.
-  const TrackOdometry::State state = odometry.At(*again, Ns(40.0));
+  const TrackOdometry::State state = odometry.At(*again, AtNs(40.0));
   EXPECT_NEAR(state.slowing_down_m, 25.5 + 13.0, 1e-9);
   EXPECT_NEAR(state.speeding_up_m, kSpeedingUp_m, 1e-9);
   EXPECT_NEAR(state.distance_m, kSpeedingUp_m + 30.0 + 25.5 + 13.0 + 60.0, 1e-9);
@@ -83,7 +83,7 @@ TEST(TrackOdometry, CountsBackwardsRunsLikeForwardOnes) {
   spec.vehicle.start_s_m = 900.0;
   spec.vehicle.motion.reverse = true;
   const auto world = MakeWorld(spec);
-  const TrackOdometry::State state = TrackOdometry(*world).At(*world, Ns(25.0));
+  const TrackOdometry::State state = TrackOdometry(*world).At(*world, AtNs(25.0));
   EXPECT_NEAR(state.distance_m, kSpeedingUp_m + 30.0, 1e-9);
   EXPECT_NEAR(state.speed_mps, 10.0, 1e-9);
 }
@@ -103,7 +103,7 @@ TEST(WheelTravel, CreepsInProportionToTheAdhesionUsed) {
   Drive({SpeedAt(0, 20), SpeedAt(10, 20), SpeedAt(30, 0)}, spec);
   const auto world = MakeWorld(spec);
   const OdometerSpec odometer{.adhesion = 0.15, .creep_at_adhesion = 0.02};
-  const TrackOdometry::State state = TrackOdometry(*world).At(*world, Ns(40.0));
+  const TrackOdometry::State state = TrackOdometry(*world).At(*world, AtNs(40.0));
   const double used = 1.0 / (0.15 * 9.80665);
   EXPECT_NEAR(state.distance_m - WheelTravel_m(odometer, state), 0.02 * used * 200.0, 1e-9);
 }
@@ -115,7 +115,7 @@ TEST(WheelTravel, CreepsOnAGradient) {
   Drive({SpeedAt(0, 10)}, spec);
   const auto world = MakeWorld(spec);
   const OdometerSpec odometer{.adhesion = 0.25, .creep_at_adhesion = 0.01};
-  const TrackOdometry::State state = TrackOdometry(*world).At(*world, Ns(30.0));
+  const TrackOdometry::State state = TrackOdometry(*world).At(*world, AtNs(30.0));
   EXPECT_NEAR(WheelTravel_m(odometer, state) - state.distance_m, 0.01 * 0.025 / 0.25 * 300.0, 1e-9);
 }
 
@@ -124,7 +124,7 @@ TEST(MeasureOdometer, CountsWholePulses) {
   const double pulse_m = std::numbers::pi * 0.9 / 80.0;
   for (const double time_s : {0.0, 3.21, 10.0, 24.99, 35.5}) {
     const OdometerSample sample = SampleAt(StartAndStop(), spec, time_s);
-    EXPECT_EQ(sample.time_ns, Ns(time_s));
+    EXPECT_EQ(sample.time_ns, AtNs(time_s));
     EXPECT_EQ(sample.pulses,
               static_cast<std::int64_t>(std::floor(sample.true_distance_m / pulse_m)));
     EXPECT_DOUBLE_EQ(sample.distance_m, pulse_m * static_cast<double>(sample.pulses));

@@ -13,7 +13,7 @@
 namespace railcast {
 namespace {
 
-std::vector<Command> OneOfEach() {
+std::vector<Command> OneOfEachCommand() {
   PlaceObject place{ObjectAt("bob \"the\" builder \xC3\xA4", ObjectType::kPerson, 2240.25, -0.1)};
   place.object.h_m = 0.0;
   place.object.size_m = {0.5, 0.5, 1.9};
@@ -40,7 +40,7 @@ std::string LineFaultsOf(const std::string& line) {
 }
 
 TEST(Command, IsReadAsItIsWritten) {
-  for (const Command& command : OneOfEach()) {
+  for (const Command& command : OneOfEachCommand()) {
     const CommandTag tag{"k3v9 \xC3\xA4", 9'007'199'254'740'992U};
     const std::string line = WriteCommand(command, tag);
     const CommandLine read = ReadCommand(line);

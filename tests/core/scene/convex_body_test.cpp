@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kReach_m = 100.0;
 // Of the descent that finds a gap.
-constexpr double kExact_m = 1e-5;
+constexpr double kBodyRounding_m = 1e-5;
 
 ConvexBody BodyOf(const Mesh& mesh) {
   std::vector<Vector3> corners;
@@ -38,15 +38,15 @@ void ExpectGap(double expected_m,
                const ConvexBody& a,
                const Transform& a_from_b,
                const ConvexBody& b) {
-  EXPECT_NEAR(Gap_m(a, a_from_b, b, kReach_m), expected_m, kExact_m);
-  EXPECT_NEAR(Gap_m(b, a_from_b.inverse(), a, kReach_m), expected_m, kExact_m);
+  EXPECT_NEAR(Gap_m(a, a_from_b, b, kReach_m), expected_m, kBodyRounding_m);
+  EXPECT_NEAR(Gap_m(b, a_from_b.inverse(), a, kReach_m), expected_m, kBodyRounding_m);
 }
 
 void ExpectDepth(double expected_m,
                  const ConvexBody& a,
                  const Transform& a_from_b,
                  const ConvexBody& b,
-                 double tolerance_m = kExact_m) {
+                 double tolerance_m = kBodyRounding_m) {
   EXPECT_EQ(Gap_m(a, a_from_b, b, kReach_m), 0.0);
   EXPECT_NEAR(Depth_m(a, a_from_b, b), expected_m, tolerance_m);
   EXPECT_NEAR(Depth_m(b, a_from_b.inverse(), a), expected_m, tolerance_m);
@@ -129,7 +129,7 @@ TEST(ConvexBody, PartsRoundBarsBesideEachOther) {
 
 TEST(ConvexBody, GivesTheLeastDepthAskedForWhereTheyAreLessDeep) {
   EXPECT_EQ(Depth_m(cube, At({0.75, 0.3, 0.2}), cube, 0.3), 0.3);
-  EXPECT_NEAR(Depth_m(cube, At({0.75, 0.3, 0.2}), cube, 0.2), 0.25, kExact_m);
+  EXPECT_NEAR(Depth_m(cube, At({0.75, 0.3, 0.2}), cube, 0.2), 0.25, kBodyRounding_m);
 }
 
 TEST(ConvexBody, MeasuresHowDeepRoundBodiesAreInEachOther) {

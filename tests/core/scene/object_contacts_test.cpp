@@ -13,7 +13,7 @@ namespace railcast {
 namespace {
 
 // Coordinates as large as in a national grid leave 1e-9 m; vertices are float32.
-constexpr double kRounding_m = 1e-5;
+constexpr double kContactRounding_m = 1e-5;
 
 std::shared_ptr<const Model> SharedModel(Mesh mesh) {
   return std::make_shared<const Model>(Model{"model", {{std::move(mesh), 1, 9}}});
@@ -57,7 +57,7 @@ double GapOf_m(const std::shared_ptr<const Model>& one,
   if (contacts.empty() || reversed.empty()) return std::nan("");
   EXPECT_EQ(contacts[0].one, 0U);
   EXPECT_EQ(contacts[0].other, 1U);
-  EXPECT_NEAR(contacts[0].gap_m, reversed[0].gap_m, kRounding_m);
+  EXPECT_NEAR(contacts[0].gap_m, reversed[0].gap_m, kContactRounding_m);
   return contacts[0].gap_m;
 }
 
@@ -69,9 +69,9 @@ bool AreApart(const std::shared_ptr<const Model>& one,
 
 TEST(ObjectContacts, BoxesTouchUpToTwoCentimetresAndThenOverlap) {
   EXPECT_TRUE(AreApart(Cube(), Cube(), At(1.021, 0.0, 0.0)));
-  EXPECT_NEAR(GapOf_m(Cube(), Cube(), At(1.019, 0.3, 0.3)), 0.019, kRounding_m);
-  EXPECT_NEAR(GapOf_m(Cube(), Cube(), At(1.0, 0.0, 0.0)), 0.0, kRounding_m);
-  EXPECT_NEAR(GapOf_m(Cube(), Cube(), At(0.981, 0.0, 0.0)), -0.019, kRounding_m);
+  EXPECT_NEAR(GapOf_m(Cube(), Cube(), At(1.019, 0.3, 0.3)), 0.019, kContactRounding_m);
+  EXPECT_NEAR(GapOf_m(Cube(), Cube(), At(1.0, 0.0, 0.0)), 0.0, kContactRounding_m);
+  EXPECT_NEAR(GapOf_m(Cube(), Cube(), At(0.981, 0.0, 0.0)), -0.019, kContactRounding_m);
   EXPECT_FALSE((ObjectContact{0, 1, -0.019}.is_overlap()));
   EXPECT_TRUE((ObjectContact{0, 1, -0.021}.is_overlap()));
 }
@@ -80,9 +80,10 @@ TEST(ObjectContacts, MeasuresRotatedBoxes) {
   constexpr double kEighth_rad = std::numbers::pi / 4.0;
   const double corner_m = std::sqrt(0.5);
   const double apart_m = 0.5 + corner_m + 0.012;
-  EXPECT_NEAR(GapOf_m(Cube(), Cube(), At(apart_m, 0.1, 0.0, kEighth_rad)), 0.012, kRounding_m);
+  EXPECT_NEAR(GapOf_m(Cube(), Cube(), At(apart_m, 0.1, 0.0, kEighth_rad)), 0.012,
+              kContactRounding_m);
   EXPECT_NEAR(GapOf_m(Cube(), Cube(), At(apart_m - 0.112, 0.1, 0.0, kEighth_rad)), -0.1,
-              kRounding_m);
+              kContactRounding_m);
 }
 
 TEST(ObjectContacts, BoxesAroundThemMayOverlapWhereTheyAreApart) {
@@ -96,7 +97,7 @@ TEST(ObjectContacts, BoxesAroundThemMayOverlapWhereTheyAreApart) {
 
 TEST(ObjectContacts, ABeamThroughACubeOverlapsThoughNoEdgesMeet) {
   const auto beam = SharedModel(MakeBox({Vector3(-3.0, -0.1, -0.1), Vector3(3.0, 0.1, 0.1)}));
-  EXPECT_NEAR(GapOf_m(Cube(), beam, Transform::Identity()), -0.6, kRounding_m);
+  EXPECT_NEAR(GapOf_m(Cube(), beam, Transform::Identity()), -0.6, kContactRounding_m);
 }
 
 TEST(ObjectContacts, FindsWhatIsEnclosed) {
@@ -108,7 +109,7 @@ TEST(ObjectContacts, FindsWhatIsEnclosed) {
   EXPECT_LT(GapOf_m(hall, Cube(), At(2.0, 1.5, 1.5)), -1.9);
   EXPECT_TRUE(AreApart(hall, Cube(), At(2.0, 4.5, 4.5)));
   // It leans on a wall of the notch, outside, and stands on the floor, inside.
-  EXPECT_NEAR(GapOf_m(hall, Cube(), At(2.0, 3.5, 4.5)), 0.0, kRounding_m);
+  EXPECT_NEAR(GapOf_m(hall, Cube(), At(2.0, 3.5, 4.5)), 0.0, kContactRounding_m);
   EXPECT_LT(GapOf_m(hall, Cube(), At(2.0, 1.5, 0.5)), -0.9);
 }
 
@@ -121,8 +122,8 @@ TEST(ObjectContacts, AnOpenTroughDoesNotEncloseItsLoad) {
   const auto model = SharedModel(trough);
   EXPECT_TRUE(AreApart(model, Cube(), Transform::Identity()));
   // The cube stands on the floor, and then in it.
-  EXPECT_NEAR(GapOf_m(model, Cube(), At(0.3, 0.2, -0.5)), 0.0, kRounding_m);
-  EXPECT_NEAR(GapOf_m(model, Cube(), At(0.3, 0.2, -0.55)), -0.05, kRounding_m);
+  EXPECT_NEAR(GapOf_m(model, Cube(), At(0.3, 0.2, -0.5)), 0.0, kContactRounding_m);
+  EXPECT_NEAR(GapOf_m(model, Cube(), At(0.3, 0.2, -0.55)), -0.05, kContactRounding_m);
 }
 
 TEST(ObjectContacts, FindsEveryPairOnceAtItsMoment) {
@@ -136,11 +137,11 @@ TEST(ObjectContacts, FindsEveryPairOnceAtItsMoment) {
   constexpr std::int64_t kMet_ns = 5'000'000'000;
   const std::vector<ObjectContact> contacts = finder.FindAll(kMet_ns);
   ASSERT_EQ(contacts.size(), 3U);
-  EXPECT_NEAR(contacts[0].gap_m, -0.8, kRounding_m);
-  EXPECT_NEAR(contacts[1].gap_m, -0.1, kRounding_m);
-  EXPECT_NEAR(contacts[2].gap_m, -0.3, kRounding_m);
+  EXPECT_NEAR(contacts[0].gap_m, -0.8, kContactRounding_m);
+  EXPECT_NEAR(contacts[1].gap_m, -0.1, kContactRounding_m);
+  EXPECT_NEAR(contacts[2].gap_m, -0.3, kContactRounding_m);
   constexpr std::int64_t kLater_ns = 5'010'000'000;
-  EXPECT_NEAR(finder.FindAll(kLater_ns)[0].gap_m, -0.7, kRounding_m);
+  EXPECT_NEAR(finder.FindAll(kLater_ns)[0].gap_m, -0.7, kContactRounding_m);
   // Moments may be asked for in any order.
   EXPECT_EQ(finder.FindAll(0).size(), 1U);
 }
@@ -155,7 +156,7 @@ TEST(ObjectContacts, FindsThoseOfTheVehicleAlone) {
   ASSERT_EQ(contacts.size(), 1U);
   EXPECT_EQ(contacts[0].one, 0U);
   EXPECT_EQ(contacts[0].other, 2U);
-  EXPECT_NEAR(contacts[0].gap_m, -0.1, kRounding_m);
+  EXPECT_NEAR(contacts[0].gap_m, -0.1, kContactRounding_m);
 }
 
 TEST(ObjectContacts, NothingTouchesWhatHasNoTriangles) {

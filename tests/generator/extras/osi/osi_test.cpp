@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "generator/extras/osi/sensor_view.h"
 #include "core/extras/osi/trace_file.h"
 #include "core/extras/ros/bag/bag.h"
 #include "core/extras/ros/mcap/byte_file.h"
@@ -18,10 +17,11 @@
 #include "core/extras/ros/mcap/record_codec.h"
 #include "core/extras/ros/mcap/record_scan.h"
 #include "core/io/write_file.h"
-#include "tests/generator/extras/osi/example_view.h"
-#include "tests/generator/extras/osi/true_messages.h"
+#include "generator/extras/osi/sensor_view.h"
 #include "tests/core/io/damage.h"
 #include "tests/core/io/recording/read_all.h"
+#include "tests/generator/extras/osi/example_view.h"
+#include "tests/generator/extras/osi/true_messages.h"
 #include "tests/generator/sequence/sequence_runs.h"
 
 namespace railcast {
@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr double kLight_mps = 299'792'458.0;
+constexpr double kLightInVacuum_mps = 299'792'458.0;
 
 // A train of two vehicles that runs behind a wagon in a curve, past a person and a crate.
 std::string Traffic() {
@@ -175,7 +175,7 @@ TEST_F(OsiTraces, GiveBackThePointsOfTheFiles) {
       ASSERT_EQ(reflection.has_time_of_flight(), HasPoint(frame.outcome[slot])) << slot;
       if (!reflection.has_time_of_flight()) continue;
       ++num_points;
-      const Vector3 point = 0.5 * kLight_mps * reflection.time_of_flight() *
+      const Vector3 point = 0.5 * kLightInVacuum_mps * reflection.time_of_flight() *
                             osi::VectorOf(lidar.view_configuration().directions(ray));
       // Coordinates up to 150 m, directions and ranges are floats.
       constexpr double kTolerance_m = 4 * 150.0 * 6e-8;
