@@ -103,6 +103,10 @@ ANONYMOUS_FUNCTION = re.compile(
     re.MULTILINE)
 LISTED_SOURCE = re.compile(r"\$\{PROJECT_SOURCE_DIR\}/([\w/]+\.(?:h|cpp))\b")
 ANONYMOUS_CONSTANT = re.compile(r"^(?:constexpr|const|static) [\w:<>, *&]+?(\w+)(?:\[\])? ?[={]", re.MULTILINE)
+ANONYMOUS_TYPE = re.compile(r"^(?:struct|class|enum class)\s+(\w+)[^;{]*\{", re.MULTILINE)
+# Of a list of tests: the program that has its sources.
+LISTED_TESTS = re.compile(r"^[ \t]*railcast_add_test\(\s*([^)]*)\)", re.MULTILINE)
+TEST_NAME = re.compile(r"^TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", re.MULTILINE)
 
 # Names declared as float or double, or as containers of them. Functions other than accessors start
 # in upper case and are not matched.
@@ -291,9 +295,9 @@ def lint_unique_types(sources):
 
 
 def lint_anonymous_names(sources):
-    """Yields the functions and constants of anonymous namespaces that two sources of a library
-    call by one name. Release builds compile several sources as one: constants clash, and of two
-    functions the other source's may silently become the better overload."""
+    """Yields the functions, constants and types of anonymous namespaces that two sources of a library
+    call by one name. Release builds compile several sources as one: constants and types clash, and of
+    two functions the other source's may silently become the better overload."""
     first = {}
     for source in sources.values():
         if source.is_header or is_within(source.folder, "tests"):
@@ -301,13 +305,54 @@ def lint_anonymous_names(sources):
         extra = EXTRA.match(source.name)
         library = extra[0] if extra else next(name for name in LIBRARIES if is_within(source.folder, name))
         for block in ANONYMOUS_NAMESPACE.finditer(source.text):
-            for pattern in (ANONYMOUS_FUNCTION, ANONYMOUS_CONSTANT):
+            for pattern in (ANONYMOUS_FUNCTION, ANONYMOUS_CONSTANT, ANONYMOUS_TYPE):
                 for match in pattern.finditer(block[0]):
                     other = first.setdefault((library, match[1]), source.name)
                     if other != source.name:
                         line = source.text.count("\n", 0, block.start() + match.start()) + 1
                         yield (f"{source.name}:{line}: sources of one library give their own "
                                f"functions and constants different names ({match[1]}, also {other})")
+
+
+def test_programs(root):
+    """{source: program} of what the CMakeLists.txt files of tests list."""
+    programs = {}
+    for path in sorted((root / "tests").rglob("CMakeLists.txt")):
+        for match in LISTED_TESTS.finditer(path.read_text(encoding="utf-8")):
+            words = match[1].split()
+            program = words[words.index("WING") + 1] if "WING" in words else words[0]
+            for word in words:
+                if word.endswith(".cpp"):
+                    programs[(path.parent / word).resolve().relative_to(root).as_posix()] = program
+    return programs
+
+
+def definitions_of_test(text):
+    """Yields (what, place in the text) of each test, and of what an anonymous namespace has but one of: a constant, a type,
+    and of the functions of one name that with the same types of parameters."""
+    for match in TEST_NAME.finditer(text):
+        yield f"{match[1]}.{match[2]}", match.start()
+    for block in ANONYMOUS_NAMESPACE.finditer(text):
+        for pattern in (ANONYMOUS_CONSTANT, ANONYMOUS_TYPE):
+            for match in pattern.finditer(block[0]):
+                yield match[1], block.start() + match.start()
+        for match in ANONYMOUS_FUNCTION.finditer(block[0]):
+            parameters = re.match(r"[^{;]*", block[0][match.end():])[0].rpartition(")")[0]
+            types = (re.sub(r"\b\w+\s*(?:=.*)?$", "", each.strip()) for each in re.split(r",(?![^<]*>)", parameters))
+            yield f"{match[1]}({', '.join(' '.join(each.split()) for each in types)})", block.start() + match.start()
+
+
+def lint_test_names(root, sources):
+    """Yields what two sources of a test program define alike: it does not compile once they come into one unit, which
+    depends on how many sources there are before them."""
+    first = {}
+    for name, program in test_programs(root).items():
+        text = sources[name].text if name in sources else ""
+        for what, start in definitions_of_test(text):
+            other = first.setdefault((program, what), name)
+            if other != name:
+                yield (f"{name}:{text.count(chr(10), 0, start) + 1}: sources of one test program give what they define "
+                       f"different names ({what}, also {other})")
 
 
 def count_lines(root):
@@ -362,8 +407,8 @@ def lint(root):
     """Every fault of the tree at `root`."""
     sources = read_sources(root)
     return [*lint_includes(sources), *lint_rooms(sources), *lint_cycles(sources), *lint_units(sources),
-            *lint_unique_types(sources), *lint_anonymous_names(sources), *lint_sizes(root), *lint_extras(root, sources),
-            *lint_listed_sources(root), *lint_named_rooms(root)]
+            *lint_unique_types(sources), *lint_anonymous_names(sources), *lint_test_names(root, sources),
+            *lint_sizes(root), *lint_extras(root, sources), *lint_listed_sources(root), *lint_named_rooms(root)]
 
 
 def main(arguments):

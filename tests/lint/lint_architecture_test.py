@@ -232,6 +232,31 @@ class AnonymousNames(unittest.TestCase):
             "core/rail/base/a.cpp": "namespace {\nint Count(int n) {\n}\n\nint Count(bool b) {\n}\n}  // namespace\n",
         }), [])
 
+    def test_types_count_too(self):
+        self.assertEqual(faults_of({
+            "core/rail/base/a.cpp": "namespace {\nstruct Span {\n};\n}  // namespace\n",
+            "core/scan/b.cpp": "namespace {\nclass Span final {\n};\n}  // namespace\n",
+        }), ["core/scan/b.cpp:2: sources of one library give their own functions and constants "
+             "different names (Span, also core/rail/base/a.cpp)"])
+
+    def test_sources_of_a_test_program_define_nothing_alike(self):
+        text = ("namespace {\nconstexpr double kStep_m = 0.5;\n\nint Count(const std::map<int, int>& n, int of = 1) {\n}\n"
+                "class Steps : public testing::Test {\n};\nTEST_F(Steps, Rise) {\n}\n}  // namespace\n")
+        files = {"tests/core/a_test.cpp": text, "tests/core/sub/b_test.cpp": text, "tests/core/c_test.cpp": text,
+                 "tests/core/CMakeLists.txt": "railcast_add_test(a WING core_tests SOURCES a_test.cpp LIBS x)\n"
+                                              "railcast_add_test(c_test SOURCES c_test.cpp)\n",
+                 "tests/core/sub/CMakeLists.txt": "if(x)\n  railcast_add_test(b WING core_tests\n  SOURCES b_test.cpp)\n"}
+        self.assertEqual(faults_of(files), [
+            f"tests/core/sub/b_test.cpp:{line}: sources of one test program give what they define different names "
+            f"({what}, also tests/core/a_test.cpp)"
+            for line, what in ((8, "Steps.Rise"), (2, "kStep_m"), (6, "Steps"), (4, "Count(const std::map<int, int>&, int)"))])
+
+    def test_functions_of_a_test_program_may_be_overloaded(self):
+        files = {f"tests/{name}_test.cpp": f"namespace {{\nint Count({name} n) {{\n}}\n}}  // namespace\n"
+                 for name in ("int", "bool")}
+        files["tests/CMakeLists.txt"] = "railcast_add_test(it SOURCES int_test.cpp bool_test.cpp)\n"
+        self.assertEqual(faults_of(files), [])
+
 
 class Cycles(unittest.TestCase):
 
