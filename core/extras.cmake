@@ -1,16 +1,17 @@
 # Extras are what can be taken away: folders below core/extras, generator/extras and analysis/extras, which the product knows
 # only as far as they are there.
 
-# railcast_extra([USES FOLDER...] [NEEDS PACKAGE...] [ADDS TYPE...] SOURCES SOURCE... [LIBS LIBRARY...]): what the
-# CMakeLists.txt of an extra's folder begins with. Its name is the folder's, its option RAILCAST_BUILD_NAME, on by default
+# railcast_extra([USES FOLDER...] [NEEDS PACKAGE...] [ADDS TYPE...] [COMMANDS NAME...] SOURCES SOURCE... [LIBS LIBRARY...]): what
+# the CMakeLists.txt of an extra's folder begins with. Its name is the folder's, its option RAILCAST_BUILD_NAME, on by default
 # where the packages are there that it needs. What follows in the file is left out where the option is off, or where an
 # extra that it uses is not built.
 #
 # USES names folders of other extras without the word extras: core/ros. NEEDS names packages for find_package(). ADDS
-# names the types of registries (railcast_gather_extras()) that the extra fills by a function AddNAME. The library is
+# names the types of registries (railcast_gather_extras()) that the extra fills by a function AddNAME, COMMANDS the
+# commands of the programs that it adds. The library is
 # railcast_NAME, or railcast_generate_NAME and railcast_analyze_NAME below generator and analysis.
 macro(railcast_extra)
-  cmake_parse_arguments(EXTRA "" "" "USES;NEEDS;ADDS;SOURCES;LIBS" ${ARGN})
+  cmake_parse_arguments(EXTRA "" "" "USES;NEEDS;ADDS;COMMANDS;SOURCES;LIBS" ${ARGN})
   cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE extra_folder)
   string(REPLACE "/extras/" "/" extra_folder ${extra_folder})
   railcast_name_extra(${extra_folder} extra_target)
@@ -47,6 +48,7 @@ macro(railcast_extra)
     set_property(GLOBAL APPEND PROPERTY RAILCAST_${type}_LIBRARIES ${extra_target})
   endforeach()
   set_property(GLOBAL APPEND PROPERTY RAILCAST_EXTRAS ${extra_folder})
+  set_property(GLOBAL APPEND PROPERTY RAILCAST_EXTRA_COMMANDS ${EXTRA_COMMANDS})
   set_property(GLOBAL PROPERTY RAILCAST_USED_BY_${extra_folder} ${EXTRA_USES})
 endmacro()
 

@@ -100,12 +100,15 @@ def read_help(words, text):
     return Command(words, description, usage, options, [], footer), subcommands
 
 
-def ask(program, subcommands=()):
-    """Returns the command of `program` (a path), with all below it; None if it belongs to an extra that is not there."""
+def ask(program, subcommands=(), required=None):
+    """Returns the command of `program` (a path), with all below it. What is not installed is left out, and None itself, if
+    there are `required` commands and it is none of them."""
     answer = subprocess.run([str(program), *subcommands, "--help"], check=False, capture_output=True, text=True)
-    if "which is not installed" in answer.stderr:
+    is_missing = "which is not installed" in answer.stderr
+    if is_missing and required is not None and subcommands[-1] not in required:
         return None
-    answer.check_returncode()
+    if answer.returncode != 0:
+        raise ValueError(f"{' '.join([str(program), *subcommands])}: {answer.stderr.strip()}")
     command, names = read_help([pathlib.Path(program).name, *subcommands], answer.stdout)
-    command.subcommands = list(filter(None, (ask(program, (*subcommands, name)) for name in names)))
+    command.subcommands = list(filter(None, (ask(program, (*subcommands, name), required) for name in names)))
     return command

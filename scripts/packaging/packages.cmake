@@ -11,10 +11,13 @@ if(RAILCAST_BUILD_IO AND NOT CMAKE_CROSSCOMPILING)
   set(manual_files ${manual_programs})
   list(TRANSFORM manual_files REPLACE "(.+)" "$<TARGET_FILE:\\1>")
   set(manuals ${PROJECT_BINARY_DIR}/manuals)
+  get_property(extra_commands GLOBAL PROPERTY RAILCAST_EXTRA_COMMANDS)
+  list(JOIN extra_commands "|" extra_pages)
+  list(JOIN extra_commands , extra_commands)
   add_custom_command(
     OUTPUT ${manuals}/stamp
     COMMAND ${CMAKE_COMMAND} -E rm -rf ${manuals}
-    COMMAND ${Python_EXECUTABLE} ${packaging}/write_manuals.py ${manuals} ${manual_files}
+    COMMAND ${Python_EXECUTABLE} ${packaging}/write_manuals.py ${manuals} --with=${extra_commands} ${manual_files}
     COMMAND ${CMAKE_COMMAND} -E touch ${manuals}/stamp
     DEPENDS ${manual_programs} ${packaging}/write_manuals.py ${packaging}/help_text.py
     COMMENT "Writing manual pages and completions")
@@ -31,7 +34,7 @@ if(RAILCAST_BUILD_IO AND NOT CMAKE_CROSSCOMPILING)
             COMPONENT ${component})
   endfunction()
   set(import_page railcast-generate-import.1.gz)
-  set(extra_pages "-(insert|convert|replay|dataset|merge|survey|import|card|evaluate|sight|study|dossier|fit|preset)\\.1")
+  set(extra_pages "-(${extra_pages})\\.1")
   railcast_install_manuals(programs railcast-generate)
   install(DIRECTORY ${manuals}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT extras
           FILES_MATCHING REGEX "${extra_pages}" PATTERN ${import_page} EXCLUDE)

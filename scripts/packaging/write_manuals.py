@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Writes manual pages and completions of the shells for programs, from their --help.
 
-usage: write_manuals.py OUT PROGRAM...
+usage: write_manuals.py OUT --with=COMMAND,... PROGRAM...
+
+The commands of extras that are there follow --with; others that are not installed are left out.
 
     OUT/man1/PROGRAM.1.gz, PROGRAM-SUBCOMMAND.1.gz    manual pages
     OUT/bash/PROGRAM                                     completion for bash
@@ -179,16 +181,17 @@ def zsh_completion(command):
 
 
 def main():
-    if len(sys.argv) < 3:
+    if len(sys.argv) < 4 or not sys.argv[2].startswith("--with="):
         sys.exit(__doc__)
     out = pathlib.Path(sys.argv[1])
     for folder in ("man1", "bash", "zsh"):
         (out / folder).mkdir(parents=True, exist_ok=True)
-    programs = [pathlib.Path(name) for name in sys.argv[2:]]
+    extras = sys.argv[2].removeprefix("--with=").split(",")
+    programs = [pathlib.Path(name) for name in sys.argv[3:]]
     version = subprocess.run([str(programs[0]), "--version"], check=True, capture_output=True, text=True).stdout
     version = version.strip().split("+")[0]
     for program in programs:
-        command = ask(program)
+        command = ask(program, required=extras)
         for name, text in pages(command, version, [each.name for each in programs]):
             # Without the time, so that equal pages are equal files.
             (out / "man1" / f"{name}.1.gz").write_bytes(gzip.compress(text.encode(), mtime=0))

@@ -2,6 +2,7 @@
 
 import pathlib
 import sys
+import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
@@ -56,6 +57,23 @@ class HelpText(unittest.TestCase):
     def test_what_cannot_be_read_is_named(self):
         with self.assertRaisesRegex(ValueError, "cannot read the option '--broken TEXT \\?'"):
             help_text.read_option("--broken TEXT ?", "Text")
+
+    def test_only_a_command_that_is_not_required_may_be_missing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = pathlib.Path(folder) / "railcast-analyze"
+            program.write_text(f"""#!/bin/sh
+if [ "$1" = sight ]; then echo "sight is part of the extra sight, which is not installed" >&2; exit 1; fi
+cat << 'END'
+{HEAD}
+Subcommands:
+  sight                       Not installed
+END
+""", encoding="utf-8")
+            program.chmod(0o755)
+            self.assertEqual(help_text.ask(program, required=["stats"]).subcommands, [])
+            for required in (None, ["sight"]):
+                with self.assertRaisesRegex(ValueError, "railcast-analyze sight: sight is part of the extra"):
+                    help_text.ask(program, required=required)
 
 
 if __name__ == "__main__":
