@@ -69,8 +69,9 @@ bool NamesLayout(const std::string& fields) {
 }
 
 std::unique_ptr<LiveTopics> OpenRosOutput(const RosOutputSpec& spec,
-                                          std::unique_ptr<dds::Participant> participant,
+                                          std::unique_ptr<dds::Participant>& participant,
                                           FrameMaker& maker) {
+  Check(participant != nullptr, "the topics of a plan are opened once");
   auto output = AtPlace("protocol ros2: ", [&] {
     return std::make_unique<RosOutput>(spec, std::move(participant), maker);
   });
@@ -104,10 +105,9 @@ std::optional<TopicsPlan> PlanTopics(const StreamOptions& options,
   spec.step_topic = options.step_topic;
   // A std::function can be copied, what it holds is shared.
   auto joined = std::make_shared<std::unique_ptr<dds::Participant>>(JoinDomain(spec.participant));
-  return TopicsPlan{.place = PlaceText(spec.participant),
-                    .open = [spec, joined = std::move(joined)](FrameMaker& maker) {
-                      return OpenRosOutput(spec, std::move(*joined), maker);
-                    }};
+  return TopicsPlan{
+      .place = PlaceText(spec.participant),
+      .open = [spec, joined](FrameMaker& maker) { return OpenRosOutput(spec, *joined, maker); }};
 }
 
 }  // namespace
