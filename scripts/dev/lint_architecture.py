@@ -346,10 +346,16 @@ def lint_test_names(root, sources):
     """Yields what two sources of a test program define alike: it does not compile once they come into one unit, which
     depends on how many sources there are before them."""
     first = {}
+    functions = {}
     for name, program in test_programs(root).items():
         text = sources[name].text if name in sources else ""
         for what, start in definitions_of_test(text):
-            other = first.setdefault((program, what), name)
+            function, is_function, _ = what.partition("(")
+            # A function hides a type of its name.
+            same = first.get((program, function)) if is_function else functions.get((program, what))
+            other = same or first.setdefault((program, what), name)
+            if is_function:
+                functions.setdefault((program, function), name)
             if other != name:
                 yield (f"{name}:{text.count(chr(10), 0, start) + 1}: sources of one test program give what they define "
                        f"different names ({what}, also {other})")

@@ -257,6 +257,13 @@ class AnonymousNames(unittest.TestCase):
         files["tests/CMakeLists.txt"] = "railcast_add_test(it SOURCES int_test.cpp bool_test.cpp)\n"
         self.assertEqual(faults_of(files), [])
 
+    def test_a_function_of_a_test_program_is_called_like_no_type(self):
+        files = {"tests/a_test.cpp": "namespace {\nint Count() {\n}\n}  // namespace\n",
+                 "tests/b_test.cpp": "namespace {\nstruct Count {\n};\n}  // namespace\n"}
+        for sources, line in (("a_test.cpp b_test.cpp", "b_test.cpp:2"), ("b_test.cpp a_test.cpp", "a_test.cpp:2")):
+            files["tests/CMakeLists.txt"] = f"railcast_add_test(it SOURCES {sources})\n"
+            self.assertEqual([fault.partition(": ")[0] for fault in faults_of(files)], [f"tests/{line}"])
+
 
 class Cycles(unittest.TestCase):
 

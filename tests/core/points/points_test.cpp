@@ -15,7 +15,7 @@ namespace {
 using Points = std::vector<Eigen::Vector3f>;
 
 /// Returns points near 400 m2 of a horizontal plane.
-Points MadePoints(std::size_t num_points, float z_m, unsigned seed) {
+Points ScatteredPoints(std::size_t num_points, float z_m, unsigned seed) {
   Points points_m;
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> place_m(0.0F, 20.0F);
@@ -54,8 +54,8 @@ class AllPoints {
 
 TEST(NearestSearch, FindsWhatPclsBruteForceFinds) {
   // Enough queries for several threads.
-  const Points queries_m = MadePoints(3000, 0.0F, 1);
-  const Points points_m = MadePoints(500, 0.3F, 2);
+  const Points queries_m = ScatteredPoints(3000, 0.0F, 1);
+  const Points points_m = ScatteredPoints(500, 0.3F, 2);
   const NearestPoints nearest = NearestSearch(points_m).Of(queries_m);
   ASSERT_EQ(nearest.index.size(), queries_m.size());
   ASSERT_EQ(nearest.distance_m.size(), queries_m.size());
@@ -68,11 +68,11 @@ TEST(NearestSearch, FindsWhatPclsBruteForceFinds) {
 }
 
 TEST(NearestSearch, OrdersNeighborsByDistance) {
-  const Points points_m = MadePoints(500, 0.3F, 2);
+  const Points points_m = ScatteredPoints(500, 0.3F, 2);
   const NearestSearch search(points_m);
   AllPoints all(points_m);
   std::vector<std::uint32_t> found;
-  for (const Eigen::Vector3f& place_m : MadePoints(50, 0.0F, 1)) {
+  for (const Eigen::Vector3f& place_m : ScatteredPoints(50, 0.0F, 1)) {
     search.FindNearest(place_m, 13, found);
     EXPECT_EQ(found, all.Nearest(place_m, 13));
     search.FindWithin(place_m, 2.5F, found);
@@ -90,7 +90,7 @@ TEST(NearestSearch, FindsAllPointsWhereThereAreFewer) {
 }
 
 TEST(NearestSearch, FindsNothingForNoQueries) {
-  EXPECT_TRUE(NearestSearch(MadePoints(1, 0.0F, 1)).Of({}).index.empty());
+  EXPECT_TRUE(NearestSearch(ScatteredPoints(1, 0.0F, 1)).Of({}).index.empty());
 }
 
 /// Six points whose standard deviations along the turned axes are the given ones.
