@@ -170,7 +170,12 @@ std::optional<CertifiedFigure> WeightedShares::Quantile(
     all[firing] += 1.0;
     if (value <= quantile) below[firing] += 1.0;
   }
-  const CertifiedFigure of_share = WilsonInterval(share, EffectiveNumber(share, below, all));
+  // Of a high quantile few values lie beyond it, so that their scatter is not known well: strata
+  // are not trusted to narrow the interval.
+  double squares = 0.0;
+  for (const auto& [firing, value] : values) squares += weights[firing] * weights[firing];
+  const double num = std::min(EffectiveNumber(share, below, all), total * total / squares);
+  const CertifiedFigure of_share = WilsonInterval(share, num);
   CertifiedFigure figure{quantile, at(of_share.low), {}};
   // Beyond the largest value nothing was drawn, but there may be something.
   if (*of_share.high * total <= total - weights[values.back().first]) {

@@ -37,7 +37,7 @@ struct CertifiedFigure {
 ///     const auto missed = shares.Share(num_missed, num_echoes);
 class WeightedShares {
  public:
-  static constexpr std::size_t kLeastDrawn = 8;
+  static constexpr std::size_t kLeastDrawn = 20;
 
   /// Adds firings of a stratum, drawn or not.
   void AddFirings(const Stratum& stratum, std::uint64_t num, double probability);
