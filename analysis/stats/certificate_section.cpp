@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -29,11 +30,11 @@ Estimate EstimateOf(const std::optional<CertifiedFigure>& figure,
 Table PartsTable(std::string key, const std::string& of, const std::vector<CertifiedPart>& parts) {
   Table table = {
       std::move(key), "Numerical error by " + of,
-      "Echoes: those of the reference that were drawn. Errors of the power are those of its ratio.",
-      ColumnsOf(
-          "part: Part; echoes: Echoes; missed_percent: Missed (%); false_percent: False (%); "
-          "range_p50_mm: Range error, median (mm); range_p95_mm: Range error, 95 % (mm); "
-          "power_p50_percent: Power error, median (%); other_label_percent: Other label (%)")};
+      "Echoes: those of the reference that were drawn. Error of power: |power / the reference's - "
+      "1|.",
+      ColumnsOf("part: Part; echoes: Echoes; missed_percent: Missed; false_percent: False; "
+                "range_p50_mm: Range error, median; range_p95_mm: Range error, 95 % quantile; "
+                "power_p50_percent: Error of power, median; other_label_percent: Other label")};
   for (const CertifiedPart& part : parts) {
     const auto of_part = [&](const std::optional<CertifiedFigure>& figure, double factor) {
       return EstimateOf(figure, factor, part.echoes);
@@ -49,8 +50,8 @@ Table PartsTable(std::string key, const std::string& of, const std::vector<Certi
 Table RungsTable(const RunCertificate& certificate) {
   Table table = {"certificate_rungs", "What other rungs would have given",
                  "On the same firings. Time: in multiples of the run's own, by the table of costs.",
-                 ColumnsOf("rung: Rung; time_ratio: Time; missed_percent: Missed (%); "
-                           "false_percent: False (%)")};
+                 ColumnsOf("rung: Rung; time_ratio: Time; missed_percent: Missed; "
+                           "false_percent: False")};
   const std::uint64_t num = certificate.all.echoes;
   const auto add = [&](const std::string& name, double cost, const auto& missed,
                        const auto& wrong) {
@@ -114,8 +115,11 @@ Section MakeCertificateSection(const RunCertificate& certificate) {
                " of ", CountText(certificate.firings),
                " firings were drawn at random and made anew on rung reference, in the same scene "
                "and with the same random draws, and their echoes compared before range noise. "
-               "Intervals are of 95 %."}),
-       CertificateText(certificate)}};
+               "Intervals are of 95 %."})}};
+  std::istringstream lines(CertificateText(certificate));
+  for (std::string line; std::getline(lines, line);) {
+    section.paragraphs.push_back(line.substr(std::min(line.find_first_not_of(' '), line.size())));
+  }
   if (certificate.without_drawn > 0.0) {
     section.paragraphs.push_back(
         Joined({"Of firings of some kinds, ", ShortText(kPercent * certificate.without_drawn),

@@ -20,6 +20,8 @@ namespace {
 constexpr double kInnerScatter = 0.2;
 constexpr double kEdgeScatter = 0.45;
 constexpr double kVagueScatter = 0.5;
+// Not that they are wrong more often, but they are what users ask about, and few.
+constexpr double kObjectScatter = 0.6;
 constexpr double kLostScatter = 0.25;  // Nothing came back, though there is something.
 constexpr double kNothingScatter = 0.05;
 // Their mean over the firings of a usual frame.
@@ -183,6 +185,9 @@ Certifier::Certifier(const ScenarioSpec& scenario, double cost_share, Simulator&
     if (const Label* label = labels.Find(name)) vague_labels_.insert(label->id);
   }
   const int rays = own.beam.footprint_rays;
+  for (const SceneObject& object : simulator.world().objects()) {
+    object_labels_.insert(object.label);
+  }
   std::vector<FiringVariant> variants = {
       {WithoutRangeErrors(EffectsAt(Fidelity::kReference, scenario)), rays},
       {WithoutRangeErrors(own.effects), rays}};
@@ -192,7 +197,9 @@ Certifier::Certifier(const ScenarioSpec& scenario, double cost_share, Simulator&
 
 double Certifier::ProbabilityOf(const Stratum& stratum) const {
   double scatter = stratum.has_return ? kInnerScatter : kLostScatter;
-  if (vague_labels_.contains(stratum.label)) {
+  if (object_labels_.contains(stratum.label)) {
+    scatter = kObjectScatter;
+  } else if (vague_labels_.contains(stratum.label)) {
     scatter = kVagueScatter;
   } else if (stratum.is_edge) {
     scatter = kEdgeScatter;

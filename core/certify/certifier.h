@@ -51,6 +51,7 @@ class Certifier {
   std::uint64_t seed_;
   float match_distance_m_;
   std::set<std::uint32_t> vague_labels_;  ///< Of plants, wires and nets.
+  std::set<std::uint32_t> object_labels_;  ///< Of the world's objects.
   std::vector<RungBeside> rungs_;
   double num_expected_{};
   double probability_per_scatter_{};
