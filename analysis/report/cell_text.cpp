@@ -164,6 +164,10 @@ CellText TextOf(const Cell& cell) {
     text.value = *words;
     return text;
   }
+  if (const auto* const judgement = std::get_if<Judgement>(&cell)) {
+    text.value = judgement->words;
+    return text;
+  }
   text.is_number = true;
   if (const auto* const count = std::get_if<std::uint64_t>(&cell)) {
     text.value = CountText(*count);

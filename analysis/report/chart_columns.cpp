@@ -25,6 +25,7 @@ struct PlaceOf {
   double operator()(double value) const { return value; }
   double operator()(const Estimate& estimate) const { return estimate.value; }
   double operator()(const Span& span) const { return 0.5 * (span.low + span.high); }
+  double operator()(const Judgement&) const { return static_cast<double>(num_before); }
 };
 
 ChartPoint PointOf(double x, const Cell& y) {

@@ -31,6 +31,7 @@ struct CellJson {
   Json operator()(const Span& span) const {
     return {{"low", NumberOf(span.low)}, {"high", NumberOf(span.high)}};
   }
+  Json operator()(const Judgement& judgement) const { return judgement.words; }
 };
 
 Json JsonOf(const Cell& cell) {
@@ -114,6 +115,7 @@ struct CellCsv {
     return text += ',' + NumberText(estimate.num);
   }
   std::string operator()(const Span& span) const { return SpanText(span); }
+  std::string operator()(const Judgement& judgement) const { return CsvText(judgement.words); }
 };
 
 bool HasEstimates(const Table& table, std::size_t column) {

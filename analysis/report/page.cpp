@@ -54,9 +54,18 @@ std::string NumberHtml(const std::string& numbers) {
   return html;
 }
 
+// The class of the style sheet for a verdict; nothing for any other cell.
+data GradeData(const Cell& cell) {
+  const auto* const judgement = std::get_if<Judgement>(&cell);
+  if (judgement == nullptr) return false;
+  if (judgement->grade == Grade::kOpen) return "open";
+  return judgement->grade == Grade::kGood ? "good" : "bad";
+}
+
 data CellData(const Cell& cell, const PageColumn& column, bool is_first) {
   const CellText text = TextOf(cell);
   object cell_data = {{"is_wide", column.has_estimates},
+                      {"grade", GradeData(cell)},
                       {"interval", NumberHtml(text.interval)},
                       {"samples", text.samples}};
   if (HasLongWord(text.value)) cell_data["breaks"] = true;
@@ -110,6 +119,7 @@ data HeadlineData(const Headline& headline) {
                 {"unit", IfAny(text.is_absent ? "" : headline.unit)},
                 {"is_number", text.is_number},
                 {"is_absent", text.is_absent},
+                {"grade", GradeData(headline.value)},
                 {"number", NumberHtml(text.value)},
                 {"words", text.value},
                 {"interval", NumberHtml(text.interval)},

@@ -22,9 +22,18 @@ struct Span {
   double high{};
 };
 
+/// What a verdict means for whoever asks.
+enum class Grade { kGood, kBad, kOpen };
+
+/// The words of a verdict. All formats have the words; the page also colours them by their grade.
+struct Judgement {
+  std::string words{};
+  Grade grade = Grade::kOpen;
+};
+
 /// One cell of a table. A NaN double is an absent figure; an Estimate without a value is one with
 /// too few samples. Neither is ever written as a number.
-using Cell = std::variant<std::string, std::uint64_t, double, Estimate, Span>;
+using Cell = std::variant<std::string, std::uint64_t, double, Estimate, Span, Judgement>;
 
 struct TableColumn {
   std::string key{};    ///< Lower snake case with unit, as in CSV and JSON: "range_m".
@@ -126,7 +135,7 @@ struct Report {
   std::string title{};    ///< "Statistics of out/demo".
   std::string command{};  ///< Command line that made it, for a reader to repeat.
   std::vector<std::pair<std::string, std::string>>
-      facts{};  ///< Input, frames, sensor, version, ...
+      facts{};                    ///< Input, frames, sensor, version, ...
   std::vector<Remark> remarks{};  ///< Of the readers of its sources, which facts tell, too.
   std::vector<Headline> headlines{};
   std::vector<Section> sections{};
