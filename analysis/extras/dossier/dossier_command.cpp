@@ -6,6 +6,7 @@
 #include "analysis/commands.h"
 #include "analysis/extras/dossier/dossier_report.h"
 #include "analysis/extras/study/finished_study.h"
+#include "analysis/extras/study/study_report.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "core/program/progress_line.h"
@@ -16,12 +17,17 @@ namespace {
 
 struct DossierOptions {
   std::filesystem::path study;
+  std::vector<std::string> table;
   int num_threads = 0;
   ReportOutput output;
 };
 
 int RunDossierCommand(const DossierOptions& options, const std::string& command_line) {
-  const FinishedStudy study = ReadFinishedStudy(options.study);
+  FinishedStudy study = ReadFinishedStudy(options.study);
+  study.spec.table = options.table;
+  // Wrong names are said before the error is measured, which takes minutes.
+  static_cast<void>(
+      NamedFactors(options.table, FactorsOf(ObservationsOf(study.result.approaches))));
   const std::vector<ScenarioSpec> sample = ReadSample(study);
   const ProgressLine line;
   const ModelError error = MeasureModelError(study, sample, options.num_threads, [&](double done) {
@@ -49,6 +55,7 @@ void AddDossier(ProgramOptions& app, ProgramCommand& command) {
       .Required()
       .Check(NonEmpty());
   AddReportOptions(dossier, options->output);
+  AddTable(dossier, options->table);
   AddThreads(dossier, options->num_threads);
   dossier.WhenParsed([&command, options] {
     command = [options](const std::string& line) { return RunDossierCommand(*options, line); };

@@ -21,24 +21,6 @@ namespace railcast {
 extern const char* const kPrintCss;
 extern const char* const kCredibility;
 
-namespace {
-
-std::vector<Headline> VerdictHeadlines(const std::vector<TargetResult>& targets) {
-  std::vector<Headline> headlines;
-  for (const TargetResult& target : targets) {
-    headlines.push_back(
-        {.title = target.name + ": detected in time", .unit = "", .value = AnswerOf(target)});
-    headlines.push_back({.title = target.name + ": 0.9 with 95 % confidence at",
-                         .unit = "m",
-                         .value = target.d90_95_m});
-    headlines.push_back(
-        {.title = target.name + ": needed, at most", .unit = "m", .value = target.most_needed_m});
-  }
-  return headlines;
-}
-
-}  // namespace
-
 Report MakeDossier(const FinishedStudy& study,
                    const std::vector<ScenarioSpec>& sample,
                    const ModelError& error,
@@ -50,23 +32,26 @@ Report MakeDossier(const FinishedStudy& study,
   }
   const std::vector<TargetResult> targets = TargetsOf(observations);
   const std::vector<Factor> factors = FactorsOf(observations);
+  const std::vector<FactorWeight> weights = WeighFactors(observations, factors);
+  const std::vector<const Factor*> in_table = study.spec.table.empty()
+                                                  ? LargestFactors(observations, factors, weights)
+                                                  : NamedFactors(study.spec.table, factors);
   Report report{
       .title = study.spec.question.empty() ? "Dossier of a study" : study.spec.question,
       .command = command,
       .headlines = VerdictHeadlines(targets),
-      .sections = {VerdictSection(targets), ScopeSection(study, sample), ModelErrorSection(error),
-                   SensorSection(sample), LimitsSection(sample, study.spec.detector.has_value()),
-                   FactorsSection(WeighFactors(observations, factors), observations.size()),
-                   ConditionsSection(observations, factors), YardsticksSection(targets),
+      .sections = {VerdictSection(targets), TableSection(observations, in_table),
+                   PlacementSection(observations, factors, in_table, study.recipe),
+                   ScopeSection(study, sample), ModelErrorSection(error), SensorSection(sample),
+                   LimitsSection(sample, study.spec.detector.has_value()),
+                   FactorsSection(weights, observations.size()),
+                   ConditionsSection(observations, factors, in_table), YardsticksSection(targets),
                    CredibilitySection(), TraceabilitySection(study), SignaturesSection()}};
-  Section placement = PlacementSection(observations, factors, study.recipe);
-  if (!placement.tables.empty()) {
-    report.sections.insert(report.sections.begin() + 1, std::move(placement));
-  }
   if (study.spec.detector) {
-    report.sections.insert(report.sections.begin() + 1,
+    report.sections.insert(report.sections.begin() + 2,
                            StudyAlarmsSection(study.spec, study.result.approaches));
   }
+  std::erase_if(report.sections, &SaysNothing);
   return report;
 }
 

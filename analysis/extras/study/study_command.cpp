@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 
 struct StudyOptions {
   fs::path study;
+  std::vector<std::string> table;
   StudyChoices choices;
   std::string shard;
   ReportOutput output;
@@ -46,7 +47,8 @@ int RunStudyCommand(StudyOptions options, const std::string& command_line) {
   if (options.output.out.empty()) {
     throw InputError("--out: missing: the folder of the study, in which it can be continued");
   }
-  const StudySpec study = ReadStudy(options.study);
+  StudySpec study = ReadStudy(options.study);
+  study.table = options.table;
   const Recipe recipe = ReadStudyRecipe(study);
   const ScenarioDrawer drawer(recipe);
   CatchStopSignals();
@@ -93,6 +95,7 @@ void AddStudy(ProgramOptions& app, ProgramCommand& command) {
   study.AddOption("STUDY", options->study, "What is asked of which recipe (docs/study.md)")
       .Required();
   AddReportOptions(study, options->output);
+  AddTable(study, options->table);
   const Option shard = study
                            .AddOption("--shard", options->shard,
                                       "Make every N-th approach only, the I-th of each N: I/N")

@@ -39,7 +39,7 @@ std::map<std::string, Values> DrawnValues(const std::vector<Observation>& observ
   };
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const Observation& each = observations[i];
-    put("target", i, each.object->Target());
+    put(kTarget, i, each.object->Target());
     put("base", i, each.approach->base);
     for (const auto& [name, value] : each.approach->drawn) put(name, i, value);
     for (const auto& [name, value] : each.object->drawn) put("object " + name, i, value);
@@ -192,6 +192,9 @@ void ObservedGroup::Add(const Observation& each) {
   num_decided += object.is_undecided() ? 0U : 1U;
   num_in_time += object.is_in_time() ? 1U : 0U;
   detected_m.push_back(object.detected_m());
+  at_most_m.push_back(object.is_undecided() ? std::numeric_limits<double>::infinity()
+                                            : object.detected_m());
+  most_needed_m = std::fmax(most_needed_m, object.needed_m);
   inspections.push_back(each.inspection);
   if (!object.is_detected) return;
   ++num_detected;

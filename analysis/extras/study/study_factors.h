@@ -38,6 +38,9 @@ struct ObservedGroup {
   std::uint64_t num_in_time{};
   Moments distance_m;              ///< Of the detections.
   std::vector<double> detected_m;  ///< Of each approach; 0 without detection.
+  /// As `detected_m`, but infinite for approaches that began too near to tell.
+  std::vector<double> at_most_m;
+  double most_needed_m = std::numeric_limits<double>::quiet_NaN();  ///< To stop; NaN of nothing.
   std::vector<Inspection> inspections;
 
   void Add(const Observation& each);
@@ -55,6 +58,8 @@ struct ObservedGroup {
 /// and what has more than 12 values that are no numbers.
 [[nodiscard]] std::vector<Factor> FactorsOf(const std::vector<Observation>& observations);
 
+/// The factor that is the kind of object.
+inline constexpr const char* kTarget = "target";
 /// The name of the distance of the inspections among the factors.
 inline constexpr const char* kDistance = "distance";
 /// The level of an observation for which a factor is not drawn.

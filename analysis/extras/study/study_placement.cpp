@@ -57,6 +57,15 @@ std::vector<PlacedView> ViewsOf(const std::vector<Observation>& observations,
   return sorted;
 }
 
+// Whether the table of verdicts has the rows of the section's own.
+bool ArePlacementsAndTargets(const std::vector<const Factor*>& in_table,
+                             std::vector<const Factor*> of_sensor,
+                             const std::vector<Factor>& factors) {
+  const auto target = std::ranges::find(factors, kTarget, &Factor::name);
+  if (target != factors.end()) of_sensor.push_back(&*target);
+  return std::ranges::is_permutation(in_table, of_sensor);
+}
+
 Chart PlacementChart(const std::vector<PlacedView>& views) {
   constexpr std::size_t kMostPlacements = 12;
   Chart chart{.key = "placement",
@@ -86,6 +95,7 @@ Chart PlacementChart(const std::vector<PlacedView>& views) {
 
 Section PlacementSection(const std::vector<Observation>& observations,
                          const std::vector<Factor>& factors,
+                         const std::vector<const Factor*>& in_table,
                          const Json& recipe) {
   std::vector<const Factor*> of_sensor;
   for (const Factor& factor : factors) {
@@ -109,6 +119,14 @@ Section PlacementSection(const std::vector<Observation>& observations,
     table.rows.push_back({view.target, view.placement, seen.num, seen.num_detected,
                           seen.in_time_percent(), seen.distance_m.Mean(),
                           DistanceOf90With95(seen.detected_m)});
+  }
+  if (ArePlacementsAndTargets(in_table, of_sensor, factors)) {
+    for (const std::string key : {"approaches", "in_time_percent", "d90_95_m"}) {
+      const auto at =
+          std::ranges::find(table.columns, key, &TableColumn::key) - table.columns.begin();
+      table.columns.erase(table.columns.begin() + at);
+      for (std::vector<Cell>& row : table.rows) row.erase(row.begin() + at);
+    }
   }
   section.tables = {std::move(table)};
   section.charts = {PlacementChart(views)};

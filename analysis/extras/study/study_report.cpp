@@ -142,6 +142,10 @@ Section WorstSection(const std::vector<Observation>& worst, const std::string& f
   return {.key = "worst", .title = "Where it fails", .tables = {std::move(table)}};
 }
 
+bool SaysNothing(const Section& section) {
+  return section.tables.empty() && section.paragraphs.empty();
+}
+
 Report MakeStudyReport(const StudySpec& study,
                        const Json& recipe,
                        const StudyResult& result,
@@ -151,19 +155,23 @@ Report MakeStudyReport(const StudySpec& study,
                 .command = command,
                 .facts = FactsOfStudy(study, result)};
   const std::vector<TargetResult> targets = TargetsOf(observations);
-  for (const TargetResult& target : targets) {
-    report.headlines.push_back({.title = target.name + ": 0.9 with 95 % confidence at",
-                                .unit = "m",
-                                .value = target.d90_95_m});
-  }
+  report.headlines = VerdictHeadlines(targets);
   const std::vector<Factor> factors = FactorsOf(observations);
-  Section placement = PlacementSection(observations, factors, recipe);
+  const std::vector<FactorWeight> weights = WeighFactors(observations, factors);
+  const std::vector<const Factor*> in_table = study.table.empty()
+                                                  ? LargestFactors(observations, factors, weights)
+                                                  : NamedFactors(study.table, factors);
   report.sections = {VerdictSection(targets),
-                     FactorsSection(WeighFactors(observations, factors), observations.size()),
-                     ConditionsSection(observations, factors), YardsticksSection(targets)};
-  if (!placement.tables.empty()) {
-    report.sections.insert(report.sections.begin() + 1, std::move(placement));
+                     TableSection(observations, in_table),
+                     PlacementSection(observations, factors, in_table, recipe),
+                     FactorsSection(weights, observations.size()),
+                     ConditionsSection(observations, factors, in_table),
+                     YardsticksSection(targets)};
+  if (study.detector) {
+    report.sections.insert(report.sections.begin() + 2,
+                           StudyAlarmsSection(study, result.approaches));
   }
+  std::erase_if(report.sections, &SaysNothing);
   if (!study.detector) return report;
   std::uint64_t num_alarms = 0;
   double driven_m = 0.0;
@@ -173,8 +181,6 @@ Report MakeStudyReport(const StudySpec& study,
   }
   report.headlines.push_back(
       {.title = "False alarms per km", .unit = "1/km", .value = AlarmsPerKm(num_alarms, driven_m)});
-  // After the verdict.
-  report.sections.insert(report.sections.begin() + 1, StudyAlarmsSection(study, result.approaches));
   return report;
 }
 

@@ -13,18 +13,17 @@
 
 namespace railcast {
 
+class ProgramOptions;
+
 /// What a study knows of one target: of a kind of object in the way, over all approaches.
 struct TargetResult {
   std::string name{};
   std::string type{};  ///< Of its first object.
   ObservedGroup seen{};
   double least_distance_m = std::numeric_limits<double>::quiet_NaN();  ///< Of the detections.
-  double most_needed_m = std::numeric_limits<double>::quiet_NaN();
   /// Of the distances of detection; NaN with fewer approaches than a fit takes, or where so many
   /// detect nothing that no distance has that confidence.
   double d90_95_m = std::numeric_limits<double>::quiet_NaN();
-  /// What 90 % do not exceed with 95 % confidence: if this is less than needed, it is too late.
-  double d90_at_most_m = std::numeric_limits<double>::quiet_NaN();
   DetectionFit fit{};  ///< Of its distances, all are NaN with fewer inspections than it takes.
 
   [[nodiscard]] bool has_fit() const { return seen.num >= DetectionFit::kMinTargets; }
@@ -33,11 +32,39 @@ struct TargetResult {
 /// By name.
 [[nodiscard]] std::vector<TargetResult> TargetsOf(const std::vector<Observation>& observations);
 
-/// Whether it is detected in time: "yes", "no", "not shown", or why that is not known.
-[[nodiscard]] std::string AnswerOf(const TargetResult& target);
+/// Whether objects are detected in time: "yes", "no", "not shown", or why that is not known.
+[[nodiscard]] Judgement AnswerOf(const ObservedGroup& seen);
+
+/// For each target the answer, d90/95 and the greatest distance needed.
+[[nodiscard]] std::vector<Headline> VerdictHeadlines(const std::vector<TargetResult>& targets);
 
 /// The answer for each target, and its probability of detection.
 [[nodiscard]] Section VerdictSection(const std::vector<TargetResult>& targets);
+
+/// Adds the option --table.
+void AddTable(ProgramOptions& command, std::vector<std::string>& factors);
+
+/// The factors of the table of verdicts that a user names; none without names.
+/// @throws InputError if a name is that of no factor, or if they are not two or three.
+[[nodiscard]] std::vector<const Factor*> NamedFactors(const std::vector<std::string>& names,
+                                                      const std::vector<Factor>& factors);
+
+/// The factors of the table of verdicts where no user names them: the kind of object, if it
+/// differs, then those of the greatest weight, up to three. A third is left out if its cells had
+/// fewer than 60 approaches on average.
+/// @return Of `factors`; none if fewer than two make cells of their own.
+[[nodiscard]] std::vector<const Factor*> LargestFactors(
+    const std::vector<Observation>& observations,
+    const std::vector<Factor>& factors,
+    const std::vector<FactorWeight>& weights);
+
+/// The table of verdicts, a row for each combination of the factors' levels that occurs; without
+/// tables if there are no factors. Defined in study_table.cpp.
+[[nodiscard]] Section TableSection(const std::vector<Observation>& observations,
+                                   const std::vector<const Factor*>& factors);
+
+/// Whether a section has nothing to say, as those of what a study does not draw.
+[[nodiscard]] bool SaysNothing(const Section& section);
 
 /// Reports a study: for each target whether it is detected in time, with which probability at which
 /// distance, what matters for that, the conditions in which it fails, and published distances.
@@ -61,16 +88,20 @@ struct TargetResult {
 
 /// Which conditions are bad: shares in time and distances by the factors' levels, their weights,
 /// and pairs of levels that fail. Defined in study_conditions.cpp.
+/// @param in_table Factors of which the table of verdicts shows the pairs.
 [[nodiscard]] Section ConditionsSection(const std::vector<Observation>& observations,
-                                        const std::vector<Factor>& factors);
+                                        const std::vector<Factor>& factors,
+                                        const std::vector<const Factor*>& in_table);
 [[nodiscard]] Section FactorsSection(const std::vector<FactorWeight>& weights,
                                      std::size_t num_observations);
 
 /// Which combination of what a recipe draws for the sensor detects each target first; without
 /// tables if it draws nothing of it. Defined in study_placement.cpp.
+/// @param in_table Factors of the table of verdicts, whose figures are not repeated.
 /// @param recipe The recipe's file.
 [[nodiscard]] Section PlacementSection(const std::vector<Observation>& observations,
                                        const std::vector<Factor>& factors,
+                                       const std::vector<const Factor*>& in_table,
                                        const Json& recipe);
 
 /// False alarms by condition, and each object in each condition. Defined in study_alarms.cpp.

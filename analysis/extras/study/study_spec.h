@@ -23,6 +23,9 @@ struct StudySpec {
   /// Whose detections are studied; absent = an object is seen by the number of points on it.
   std::optional<ClusterDetectorSpec> detector;
   std::optional<TrainGauge> gauge;  ///< Of the train, in place of the vehicle's outline.
+  /// Names of the factors of the table of verdicts, which the option --table says, not the file.
+  /// Empty = those that matter most.
+  std::vector<std::string> table;
 
   /// What is asked about, for pages: "wagons/3, person", or "all objects in the way".
   [[nodiscard]] std::string ObjectsText() const;

@@ -13,8 +13,6 @@ namespace railcast {
 
 std::vector<TargetResult> TargetsOf(const std::vector<Observation>& observations) {
   std::map<std::string, TargetResult> by_target;
-  // Of an approach that began too near to tell, it is not known from where it would be detected.
-  std::map<std::string, std::vector<double>> at_most_m;
   for (const Observation& each : observations) {
     const StudiedObject& object = *each.object;
     TargetResult& target = by_target[object.Target()];
@@ -23,29 +21,40 @@ std::vector<TargetResult> TargetsOf(const std::vector<Observation>& observations
     if (object.is_detected && !object.is_from_start) {
       target.least_distance_m = std::fmin(target.least_distance_m, object.distance_m);
     }
-    target.most_needed_m = std::fmax(target.most_needed_m, object.needed_m);
-    at_most_m[object.Target()].push_back(
-        object.is_undecided() ? std::numeric_limits<double>::infinity() : object.detected_m());
   }
   std::vector<TargetResult> results;
   for (auto& [name, target] : by_target) {
     target.name = name;
-    if (target.has_fit()) {
-      target.fit = FitDetection(target.seen.inspections);
-      target.d90_95_m = DistanceOf90With95(target.seen.detected_m);
-      target.d90_at_most_m = LimitsExceededBy90Percent(at_most_m[name]).high;
-    }
+    target.d90_95_m = DistanceOf90With95(target.seen.detected_m);
+    if (target.has_fit()) target.fit = FitDetection(target.seen.inspections);
     results.push_back(std::move(target));
   }
   return results;
 }
 
-std::string AnswerOf(const TargetResult& target) {
-  if (!target.has_fit()) {
-    return "too few approaches: " + NumberText(DetectionFit::kMinTargets) + " are needed";
+Judgement AnswerOf(const ObservedGroup& seen) {
+  if (seen.num < DetectionFit::kMinTargets) {
+    return {"too few approaches: " + NumberText(DetectionFit::kMinTargets) + " are needed"};
   }
-  if (target.d90_95_m >= target.most_needed_m) return "yes";
-  return target.d90_at_most_m < target.most_needed_m ? "no" : "not shown";
+  if (DistanceOf90With95(seen.detected_m) >= seen.most_needed_m) return {"yes", Grade::kGood};
+  // What 90 % do not exceed with 95 % confidence: if this is less than needed, it is too late.
+  const double at_most_m = LimitsExceededBy90Percent(seen.at_most_m).high;
+  return at_most_m < seen.most_needed_m ? Judgement{"no", Grade::kBad} : Judgement{"not shown"};
+}
+
+std::vector<Headline> VerdictHeadlines(const std::vector<TargetResult>& targets) {
+  std::vector<Headline> headlines;
+  for (const TargetResult& target : targets) {
+    headlines.push_back(
+        {.title = target.name + ": detected in time", .value = AnswerOf(target.seen)});
+    headlines.push_back({.title = target.name + ": 0.9 with 95 % confidence at",
+                         .unit = "m",
+                         .value = target.d90_95_m});
+    headlines.push_back({.title = target.name + ": needed, at most",
+                         .unit = "m",
+                         .value = target.seen.most_needed_m});
+  }
+  return headlines;
 }
 
 Section VerdictSection(const std::vector<TargetResult>& targets) {
@@ -66,9 +75,9 @@ Section VerdictSection(const std::vector<TargetResult>& targets) {
       .is_open = true};
   for (const TargetResult& target : targets) {
     const ObservedGroup& seen = target.seen;
-    table.rows.push_back({target.name, AnswerOf(target), seen.num, seen.num_detected,
+    table.rows.push_back({target.name, AnswerOf(seen), seen.num, seen.num_detected,
                           seen.in_time_percent(), target.d90_95_m, target.fit.d90_m,
-                          target.fit.d90_95_m, target.most_needed_m, target.least_distance_m,
+                          target.fit.d90_95_m, seen.most_needed_m, target.least_distance_m,
                           target.has_fit() ? AsymptoteCell(target.fit) : Cell(std::string())});
   }
   Section section{.key = "verdict", .title = "Verdict"};

@@ -165,9 +165,9 @@ TEST_F(DossierOfAStudy, IsWrittenWholeAndOnAtMostTwentyPages) {
   for (const auto& section : json.at("sections")) {
     keys.push_back(section.at("key").get<std::string>());
   }
-  EXPECT_THAT(keys, testing::ElementsAre("verdict", "scope", "model", "sensor", "limits", "factors",
-                                         "conditions", "yardsticks", "credibility", "traceability",
-                                         "signatures"));
+  EXPECT_THAT(keys, testing::ElementsAre("verdict", "verdict_by_condition", "scope", "model",
+                                         "sensor", "limits", "factors", "conditions", "yardsticks",
+                                         "credibility", "traceability", "signatures"));
   if (IsInstalled("chromium")) ExpectFitWidths({out / "report.html"});
 }
 

@@ -152,7 +152,8 @@ std::vector<ApproachRecord> MountApproaches() {
 TEST(StudyPlacement, ListsWhatDetectsFirstAboveAllElse) {
   const auto approaches = MountApproaches();
   const auto observations = ObservationsOf(approaches);
-  const Section section = PlacementSection(observations, FactorsOf(observations), MountRecipe());
+  const Section section =
+      PlacementSection(observations, FactorsOf(observations), {}, MountRecipe());
   const Table& table = section.tables.at(0);
   ASSERT_EQ(table.rows.size(), 2U);
   EXPECT_EQ(std::get<std::string>(table.rows[0].at(1)), "roof");
@@ -170,7 +171,7 @@ TEST(StudyPlacement, IsNoSectionWhereNothingOfTheSensorIsDrawn) {
   const auto observations = ObservationsOf(approaches);
   Json recipe = MountRecipe();
   recipe["groups"].erase(0);
-  EXPECT_TRUE(PlacementSection(observations, FactorsOf(observations), recipe).tables.empty());
+  EXPECT_TRUE(PlacementSection(observations, FactorsOf(observations), {}, recipe).tables.empty());
 }
 
 /// Approaches to a person, each with its distance of detection; 0 = never.
@@ -207,13 +208,13 @@ std::vector<double> DistancesBeyond90(int num) {
 TEST(StudyTargets, AreDetectedInTimeWhereAllApproachesDetectThemFartherAway) {
   const TargetResult target = TargetThatIsDetectedAt(DistancesBeyond90(64), 77.0);
   EXPECT_EQ(target.d90_95_m, 93.0);  // The third nearest of 64.
-  EXPECT_EQ(AnswerOf(target), "yes");
+  EXPECT_EQ(AnswerOf(target.seen).words, "yes");
 }
 
 TEST(StudyTargets, AreDetectedTooLateOnlyIfTheRanksShowIt) {
   // The 10th of 64 distances is what 90 % do not exceed with 95 % confidence, or the 11th.
-  EXPECT_EQ(AnswerOf(TargetThatIsDetectedAt(DistancesBeyond90(64), 150.0)), "no");
-  EXPECT_EQ(AnswerOf(TargetThatIsDetectedAt(DistancesBeyond90(64), 95.0)), "not shown");
+  EXPECT_EQ(AnswerOf(TargetThatIsDetectedAt(DistancesBeyond90(64), 150.0).seen).words, "no");
+  EXPECT_EQ(AnswerOf(TargetThatIsDetectedAt(DistancesBeyond90(64), 95.0).seen).words, "not shown");
 }
 
 TEST(StudyTargets, HaveNoDistanceWhereTooManyApproachesDetectNothing) {
@@ -223,13 +224,13 @@ TEST(StudyTargets, HaveNoDistanceWhereTooManyApproachesDetectNothing) {
   detected_m[40] = 0.0;
   const TargetResult target = TargetThatIsDetectedAt(detected_m, 77.0);
   EXPECT_TRUE(std::isnan(target.d90_95_m));
-  EXPECT_EQ(AnswerOf(target), "not shown");
+  EXPECT_EQ(AnswerOf(target.seen).words, "not shown");
 }
 
 TEST(StudyTargets, HaveNoAnswerOfFewerThan60Approaches) {
   const TargetResult target = TargetThatIsDetectedAt(DistancesBeyond90(59), 77.0);
   EXPECT_TRUE(std::isnan(target.d90_95_m));
-  EXPECT_EQ(AnswerOf(target), "too few approaches: 60 are needed");
+  EXPECT_EQ(AnswerOf(target.seen).words, "too few approaches: 60 are needed");
 }
 
 TEST(StudyTargets, StandBesideTheDriverWhereHisDistanceIsPublished) {
