@@ -70,22 +70,23 @@ void PrintPage(const std::filesystem::path& page, const std::filesystem::path& p
 }
 
 Section CredibilitySection() {
-  Table table{
-      .key = "credibility",
-      .title = "Questions of credibility",
-      .note =
-          "After the properties that Regulation (EU) 2022/1426, Annex III part 4, and the NATM "
-          "guidelines of UNECE ask of simulation toolchains, in our words. Open questions are for "
-          "whoever files this.",
-      .columns = ColumnsOf("property: Property; question: Question; state: State; answer: Answer"),
-      .is_open = true};
-  for (const Json& row : Json::parse(kCredibility)) {
-    const auto answer = row.at("answer").get<std::string>();
-    table.rows.push_back({row.at("property").get<std::string>(),
-                          row.at("question").get<std::string>(),
-                          std::string(answer.empty() ? "open" : "answered"), answer});
+  Section section{.key = "credibility", .title = "Credibility"};
+  for (const Json& rules : Json::parse(kCredibility)) {
+    Table table{.key = rules.at("key").get<std::string>(),
+                .title = rules.at("title").get<std::string>(),
+                .note = rules.at("note").get<std::string>(),
+                .columns = ColumnsOf(
+                    "property: Property; question: Question; state: State; answer: Answer"),
+                .is_open = true};
+    for (const Json& row : rules.at("questions")) {
+      const auto answer = row.at("answer").get<std::string>();
+      table.rows.push_back({row.at("property").get<std::string>(),
+                            row.at("question").get<std::string>(),
+                            std::string(answer.empty() ? "open" : "answered"), answer});
+    }
+    section.tables.push_back(std::move(table));
   }
-  return {.key = "credibility", .title = "Credibility", .tables = {std::move(table)}};
+  return section;
 }
 
 Section TraceabilitySection(const FinishedStudy& study) {
