@@ -16,7 +16,7 @@ namespace {
 /// Observations that have the same values of some factors, by the factors' levels.
 using TableCells = std::map<std::vector<std::size_t>, ObservedGroup>;
 
-constexpr const char* kTooFew = "too few approaches";
+constexpr const char* kTooFewInCell = "too few";
 
 TableCells CellsBy(const std::vector<const Factor*>& factors,
                    const std::vector<Observation>& observations) {
@@ -33,7 +33,8 @@ bool IsDrawnForAll(const Factor& factor) {
   return std::ranges::find(factor.levels, kNotDrawn) == factor.levels.end();
 }
 
-// The kind of object first, then by weight, or those with the fewest values where none is weighed.
+// The kind of object first, then by weight; where none is weighed, names before thirds of numbers,
+// and those with the fewest values first.
 // What is drawn for some approaches only is a detail of another factor's value.
 std::vector<const Factor*> FactorsBySize(const std::vector<Factor>& factors,
                                          const std::vector<FactorWeight>& weights) {
@@ -54,7 +55,10 @@ std::vector<const Factor*> FactorsBySize(const std::vector<Factor>& factors,
   for (const Factor& factor : factors) add(factor);
   std::stable_sort(sorted.begin() + num_targets, sorted.end(),
                    [](const Factor* one, const Factor* other) {
-                     return one->levels.size() < other->levels.size();
+                     const auto key = [](const Factor& factor) {
+                       return std::pair(!factor.numbers.empty(), factor.levels.size());
+                     };
+                     return key(*one) < key(*other);
                    });
   return sorted;
 }
@@ -65,9 +69,9 @@ std::string NamesText(const std::vector<const Factor*>& factors, const std::stri
   return text;
 }
 
-// "factor_object_person_posture" for "object /person/posture".
+// "factor_object_person_posture" and "posture" for "object /person/posture".
 TableColumn ColumnOfFactor(const Factor& factor) {
-  TableColumn column{.key = "factor", .title = factor.name};
+  TableColumn column{.key = "factor", .title = factor.name.substr(factor.name.rfind('/') + 1)};
   bool is_gap = true;
   for (const char letter : factor.name) {
     const bool is_plain =
@@ -79,12 +83,12 @@ TableColumn ColumnOfFactor(const Factor& factor) {
   return column;
 }
 
-// "12 cells: yes 7, no 2, not shown 1, too few approaches 2."
+// "12 cells: yes 7, no 2, not shown 1, too few 2."
 std::string CountsText(const std::map<std::string, std::size_t>& num_by_words,
                        std::size_t num_cells,
                        std::size_t num_combinations) {
   std::string counts;
-  for (const char* const words : {"yes", "no", "not shown", kTooFew}) {
+  for (const char* const words : {"yes", "no", "not shown", kTooFewInCell}) {
     const auto num = num_by_words.find(words);
     if (num == num_by_words.end()) continue;
     counts += std::string(counts.empty() ? " " : ", ") + words + " " + NumberText(num->second);
@@ -154,8 +158,9 @@ Section TableSection(const std::vector<Observation>& observations,
       .title = NamesText(factors, " × "),
       .note =
           "The verdict as above, for each combination of the values of the kind of object and of "
-          "the factors that matter most, or of those that --table names. Needed is the greatest "
-          "distance of the cell. Verdicts and distances need 60 approaches.",
+          "the factors that matter most, or of those that --table names. d90/95 is the distance at "
+          "which 0.9 are detected with 95 % confidence, needed the greatest one in the cell. Too "
+          "few are fewer than 60 approaches.",
       .is_open = true};
   std::size_t num_combinations = 1;
   for (const Factor* factor : factors) {
@@ -164,7 +169,7 @@ Section TableSection(const std::vector<Observation>& observations,
   }
   for (TableColumn& column :
        ColumnsOf("answer: Detected in time; approaches: Approaches; in_time_percent: In time; "
-                 "d90_95_m: 0.9 with 95 % confidence at; most_needed_m: Needed, at most")) {
+                 "d90_95_m: d90/95; most_needed_m: Needed, at most")) {
     table.columns.push_back(std::move(column));
   }
   std::map<std::string, std::size_t> num_by_words;
@@ -174,7 +179,7 @@ Section TableSection(const std::vector<Observation>& observations,
       row.emplace_back(factors[k]->levels[levels[k]]);
     }
     Judgement answer = AnswerOf(cell);
-    if (cell.num < DetectionFit::kMinTargets) answer.words = kTooFew;
+    if (cell.num < DetectionFit::kMinTargets) answer.words = kTooFewInCell;
     ++num_by_words[answer.words];
     row.insert(row.end(), {std::move(answer), cell.num, cell.in_time_percent(),
                            DistanceOf90With95(cell.detected_m), cell.most_needed_m});

@@ -70,7 +70,7 @@ TEST(StudyTable, JudgesEachCombinationByItsOwnApproaches) {
   EXPECT_EQ(WordsOf(rows[0]), "clear Pandar64, \"roof\": yes");
   EXPECT_EQ(WordsOf(rows[1]), "clear VLS-128: no");
   EXPECT_EQ(WordsOf(rows[2]), "fog Pandar64, \"roof\": not shown");
-  EXPECT_EQ(WordsOf(rows[3]), "fog VLS-128: too few approaches");
+  EXPECT_EQ(WordsOf(rows[3]), "fog VLS-128: too few");
   // In time: all 64; those at 150 to 154 m; those from 95 m on; none of the ten that are decided.
   const std::vector<std::pair<double, std::uint64_t>> in_time = {
       {100.0, 64}, {100.0 * 5 / 64, 64}, {100.0 * 60 / 64, 64}, {0.0, 10}};
@@ -93,7 +93,7 @@ TEST(StudyTable, JudgesEachCombinationByItsOwnApproaches) {
 TEST(StudyTable, CountsItsVerdictsAndWhatDidNotOccur) {
   std::vector<ApproachRecord> approaches = FourCells();
   EXPECT_EQ(SectionOf(approaches, {"weather", "sensor"}).paragraphs.at(0),
-            "4 cells: yes 1, no 1, not shown 1, too few approaches 1.");
+            "4 cells: yes 1, no 1, not shown 1, too few 1.");
   approaches.resize(3 * 64);
   EXPECT_EQ(SectionOf(approaches, {"weather", "sensor"}).paragraphs.at(0),
             "3 cells: yes 1, no 1, not shown 1. Combinations that did not occur: 1.");
@@ -111,7 +111,7 @@ TEST(StudyTable, IsReadByOthersAsCsv) {
   ASSERT_EQ(read.status, 0) << read.said;
   EXPECT_THAT(read.said, testing::StartsWith("Pandar64, \"roof\"|clear|yes|64|100|"));
   EXPECT_THAT(read.said, testing::HasSubstr("|64|93|77\n"));
-  EXPECT_THAT(read.said, testing::HasSubstr("\nVLS-128|fog|too few approaches|11|0|0|"));
+  EXPECT_THAT(read.said, testing::HasSubstr("\nVLS-128|fog|too few|11|0|0|"));
   EXPECT_THAT(read.said,
               testing::EndsWith("\nfactor_sensor|factor_weather|answer|approaches|in_time_percent|"
                                 "in_time_percent_low|in_time_percent_high|in_time_percent_samples|"
@@ -129,7 +129,7 @@ TEST(StudyTable, HasWordsAndColoursOnThePage) {
        {"<td><span class=\"grade good\">yes</span></td>",
         "<td><span class=\"grade bad\">no</span></td>",
         "<td><span class=\"grade open\">not shown</span></td>",
-        "<td><span class=\"grade open\">too few approaches</span></td>",
+        "<td><span class=\"grade open\">too few</span></td>",
         // At the head, of all approaches: 150 m are needed at most.
         "<dt>person: detected in time</dt><dd><span class=\"figure words\"><span class=\"grade "
         "bad\">no</span>",
