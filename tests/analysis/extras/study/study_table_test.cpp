@@ -67,6 +67,7 @@ TEST(StudyTable, JudgesEachCombinationByItsOwnApproaches) {
   const Section section = SectionOf(FourCells(), {"weather", "sensor"});
   const auto& rows = section.tables.at(0).rows;
   ASSERT_EQ(rows.size(), 4U);
+  EXPECT_EQ(TableBlocks(section.tables[0]).size(), 1U);  // All columns stand side by side.
   EXPECT_EQ(WordsOf(rows[0]), "clear Pandar64, \"roof\": yes");
   EXPECT_EQ(WordsOf(rows[1]), "clear VLS-128: no");
   EXPECT_EQ(WordsOf(rows[2]), "fog Pandar64, \"roof\": not shown");
@@ -193,6 +194,16 @@ TEST(StudyTable, HasTheTargetAndTheFactorsThatMatterMost) {
   EXPECT_THAT(LargestOf(TwelveCells(719), weights), ElementsAre("target", "posture"));
   // Without weights, those with the fewest values.
   EXPECT_THAT(LargestOf(TwelveCells(48), {}), ElementsAre("target", "weather"));
+}
+
+TEST(StudyTable, HasNamesBeforeThirdsOfNumbersWhereNothingIsWeighed) {
+  std::vector<ApproachRecord> approaches;
+  for (int i = 0; i < 48; ++i) {
+    approaches.push_back(DrawnApproach(
+        "person", 100.0, 80.0,
+        {{"mount", std::string("mount ") + "ABCD"[i % 4]}, {"/lidar/mount/roll_deg", 0.1 * i}}));
+  }
+  EXPECT_THAT(LargestOf(approaches, {}), testing::ElementsAre("mount", "/lidar/mount/roll_deg"));
 }
 
 TEST(StudyTable, IsLeftOutWhereLessThanTwoFactorsDiffer) {
