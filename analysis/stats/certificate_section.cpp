@@ -16,18 +16,20 @@
 namespace railcast {
 namespace {
 
-constexpr double kPercent = 100.0;
-constexpr double kMm = 1e3;
+constexpr double kCertifiedPercent = 100.0;
+constexpr double kCertifiedMm = 1e3;
 
-Estimate EstimateOf(const std::optional<CertifiedFigure>& figure,
-                    double factor,
-                    std::uint64_t num) {
+Estimate CertifiedEstimate(const std::optional<CertifiedFigure>& figure,
+                           double factor,
+                           std::uint64_t num) {
   if (!figure) return NotEnough(num);
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   return Scaled({figure->value, figure->low, figure->high.value_or(kNaN), num}, factor);
 }
 
-Table PartsTable(std::string key, const std::string& of, const std::vector<CertifiedPart>& parts) {
+Table CertifiedTable(std::string key,
+                     const std::string& of,
+                     const std::vector<CertifiedPart>& parts) {
   Table table = {
       std::move(key), "Numerical error by " + of,
       "Echoes: those of the reference that were drawn. Error of power: |power / the reference's - "
@@ -37,12 +39,13 @@ Table PartsTable(std::string key, const std::string& of, const std::vector<Certi
                 "power_p50_percent: Error of power, median; other_label_percent: Other label")};
   for (const CertifiedPart& part : parts) {
     const auto of_part = [&](const std::optional<CertifiedFigure>& figure, double factor) {
-      return EstimateOf(figure, factor, part.echoes);
+      return CertifiedEstimate(figure, factor, part.echoes);
     };
-    table.rows.push_back({part.name, part.echoes, of_part(part.missed, kPercent),
-                          of_part(part.wrong, kPercent), of_part(part.range_p50_m, kMm),
-                          of_part(part.range_p95_m, kMm), of_part(part.power_p50, kPercent),
-                          of_part(part.other_label, kPercent)});
+    table.rows.push_back(
+        {part.name, part.echoes, of_part(part.missed, kCertifiedPercent),
+         of_part(part.wrong, kCertifiedPercent), of_part(part.range_p50_m, kCertifiedMm),
+         of_part(part.range_p95_m, kCertifiedMm), of_part(part.power_p50, kCertifiedPercent),
+         of_part(part.other_label, kCertifiedPercent)});
   }
   return table;
 }
@@ -55,8 +58,8 @@ Table RungsTable(const RunCertificate& certificate) {
   const std::uint64_t num = certificate.all.echoes;
   const auto add = [&](const std::string& name, double cost, const auto& missed,
                        const auto& wrong) {
-    table.rows.push_back(
-        {name, cost, EstimateOf(missed, kPercent, num), EstimateOf(wrong, kPercent, num)});
+    table.rows.push_back({name, cost, CertifiedEstimate(missed, kCertifiedPercent, num),
+                          CertifiedEstimate(wrong, kCertifiedPercent, num)});
   };
   add("this run", 1.0, certificate.all.missed, certificate.all.wrong);
   for (const CertifiedRung& rung : certificate.rungs) {
@@ -121,26 +124,27 @@ Section MakeCertificateSection(const RunCertificate& certificate) {
     section.paragraphs.push_back(line.substr(std::min(line.find_first_not_of(' '), line.size())));
   }
   if (certificate.without_drawn > 0.0) {
-    section.paragraphs.push_back(
-        Joined({"Of firings of some kinds, ", ShortText(kPercent * certificate.without_drawn),
-                " % of all, none was drawn; others stand for them."}));
+    section.paragraphs.push_back(Joined({"Of firings of some kinds, ",
+                                         ShortText(kCertifiedPercent * certificate.without_drawn),
+                                         " % of all, none was drawn; others stand for them."}));
   }
-  section.tables.push_back(PartsTable("certificate", "part", {certificate.all}));
+  section.tables.push_back(CertifiedTable("certificate", "part", {certificate.all}));
   if (!certificate.rungs.empty()) section.tables.push_back(RungsTable(certificate));
-  section.tables.push_back(PartsTable("certificate_by_class", "class", certificate.classes));
-  section.tables.push_back(PartsTable("certificate_by_range", "range", certificate.ranges));
+  section.tables.push_back(CertifiedTable("certificate_by_class", "class", certificate.classes));
+  section.tables.push_back(CertifiedTable("certificate_by_range", "range", certificate.ranges));
   if (!certificate.objects.empty()) {
-    section.tables.push_back(PartsTable("certificate_by_object", "object", certificate.objects));
+    section.tables.push_back(
+        CertifiedTable("certificate_by_object", "object", certificate.objects));
   }
   return section;
 }
 
 void AddCertificateHeadlines(const RunCertificate& certificate, Report& report) {
   const CertifiedPart& all = certificate.all;
-  report.headlines.push_back(
-      {"Echoes missed for the rung", "%", EstimateOf(all.missed, kPercent, all.echoes)});
-  report.headlines.push_back(
-      {"Range error of the rung", "mm", EstimateOf(all.range_p50_m, kMm, all.echoes)});
+  report.headlines.push_back({"Echoes missed for the rung", "%",
+                              CertifiedEstimate(all.missed, kCertifiedPercent, all.echoes)});
+  report.headlines.push_back({"Range error of the rung", "mm",
+                              CertifiedEstimate(all.range_p50_m, kCertifiedMm, all.echoes)});
 }
 
 }  // namespace railcast
