@@ -60,7 +60,7 @@ class Daylight {
 [[nodiscard]] std::array<std::uint8_t, 3> SrgbBytes(const Radiance& radiance);
 
 /// Returns the reflectance of each material in red, green and blue light, by index. Materials that
-/// the table of docs/camera.md does not name are grey, as bright as at 905 nm.
+/// the table of colors in colors.cpp does not name are grey, as bright as at 905 nm.
 [[nodiscard]] std::vector<Vector3> MaterialColors(const MaterialLibrary& materials);
 
 }  // namespace railcast

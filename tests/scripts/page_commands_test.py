@@ -185,8 +185,6 @@ def make_stand_ins(build, folder):
     for name, file in page_tables.READERS.items():
         (folder / name).parent.mkdir(exist_ok=True)
         (folder / name).symlink_to(folder / file)
-    camera = {**small_runs.RIG, "camera": {**small_runs.RIG["camera"], "udp": ["127.0.0.1:27500"]}}
-    (folder / "scenario_with_camera.json").write_text(json.dumps(camera))
     (folder / "detected.jsonl").write_text('{"frame": 0, "detections": []}\n')
     tiny = {**small_runs.DRIVE, "lidar": {**small_runs.DRIVE["lidar"], "scan": small_runs.raster(5)},
             "world": {**small_runs.DRIVE["world"], **LONG, "terrain": {}}}
