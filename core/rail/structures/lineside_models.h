@@ -40,7 +40,7 @@ void AddSignalLamp(const Vector3& middle_m,
 ///
 /// Unless noted otherwise, a model stands upright with its origin at the middle of its footprint at
 /// the height of top of rail. x is the direction of travel of the trains that it is for, so that
-/// what they should see faces -x. Dimensions are working values of docs/structures.md unless a
+/// what they should see faces -x. Dimensions are those of docs/results/world_dimensions.md unless a
 /// source is named. Posts reach down to kFoot_m, which is below the ground beside a track.
 inline constexpr double kFoot_m = -1.0;
 
