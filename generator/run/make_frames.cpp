@@ -281,16 +281,26 @@ bool ChooseFidelities(
   return true;
 }
 
+CertifySpec CertifySpecOf(const ScenarioSpec& scenario,
+                          const World& world,
+                          const Certifier& certifier,
+                          double cost_share) {
+  CertifySpec spec{.cost_share = cost_share, .rungs = certifier.rungs()};
+  for (const SceneObject& object : world.objects()) {
+    spec.objects.emplace(object.instance, object.name);
+  }
+  if (scenario.fidelity == Fidelity::kAuto) spec.tolerance = scenario.tolerance;
+  return spec;
+}
+
 void UseCertificates(FrameMaker& maker, RunPlan& plan) {
   for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
     SensorPlan& sensor = plan.sensors[i];
     if (!sensor.spec.certify) continue;
-    CertifySpec& certify = *sensor.spec.certify;
-    certify.rungs = maker.Certify(i, certify.cost_share).rungs();
-    for (const SceneObject& object : maker.simulator(i).world().objects()) {
-      certify.objects.emplace(object.instance, object.name);
-    }
-    if (sensor.scenario.fidelity == Fidelity::kAuto) certify.tolerance = sensor.scenario.tolerance;
+    const double cost_share = sensor.spec.certify->cost_share;
+    const Certifier& certifier = maker.Certify(i, cost_share);
+    sensor.spec.certify =
+        CertifySpecOf(sensor.scenario, maker.simulator(i).world(), certifier, cost_share);
   }
 }
 

@@ -54,6 +54,14 @@ struct SequenceHooks : RunHooks {
     const SequenceHooks& hooks,
     RunPlan& plan);
 
+/// What the certificates of a sensor's frames are about.
+/// @param scenario With this sensor alone.
+/// @param world That of its first frame.
+[[nodiscard]] CertifySpec CertifySpecOf(const ScenarioSpec& scenario,
+                                        const World& world,
+                                        const Certifier& certifier,
+                                        double cost_share);
+
 /// Has the frames of those sensors certified whose plans say so, and notes in the plans what their
 /// certificates are about.
 /// @pre Their effects are chosen (ChooseFidelities()).

@@ -26,13 +26,17 @@ void AddRunChoices(ProgramOptions& command, RunChoices& choices) {
   command.AddFlag("--merged", choices.is_merged,
                   "Also write the clouds of all sensors together, in the vehicle's axes, with "
                   "the field sensor_index");
+  AddCertify(command, choices.certify);
+  AddThreads(command, choices.num_threads);
+  AddIsa(command, choices.isa);
+}
+
+void AddCertify(ProgramOptions& command, std::string& certify) {
   command
-      .AddOption("--certify", choices.certify,
+      .AddOption("--certify", certify,
                  "Share of the frames' time, such as 1%, for making some of their firings anew on "
                  "rung reference, which tells the run's numerical error; or off")
       .ShowDefault();
-  AddThreads(command, choices.num_threads);
-  AddIsa(command, choices.isa);
 }
 
 void CheckFields(const std::string& fields) {
