@@ -73,7 +73,8 @@ void LiveHealth::Update(const RunState& state) {
                    .late_frames = record.late_frames,
                    .dropped_frames = record.dropped_frames,
                    .compute_ns = record.compute.total_ns(),
-                   .max_compute_ns = record.compute.max_ns()};
+                   .max_compute_ns = record.compute.max_ns(),
+                   .uncertified_frames = record.uncertified_frames};
   }
 }
 
@@ -94,12 +95,15 @@ std::string LiveHealth::Line() const {
     all.frames += sensor.frames;
     all.late_frames += sensor.late_frames;
     all.dropped_frames += sensor.dropped_frames;
+    if (!sensor.uncertified_frames) continue;
+    all.uncertified_frames = all.uncertified_frames.value_or(0) + *sensor.uncertified_frames;
   }
-  const nlohmann::ordered_json line = {{"status", Status()},
-                                       {"frames", all.frames},
-                                       {"late_frames", all.late_frames},
-                                       {"dropped_frames", all.dropped_frames},
-                                       {"behind_s", Seconds(behind_ns_)}};
+  nlohmann::ordered_json line = {{"status", Status()},
+                                 {"frames", all.frames},
+                                 {"late_frames", all.late_frames},
+                                 {"dropped_frames", all.dropped_frames},
+                                 {"behind_s", Seconds(behind_ns_)}};
+  if (all.uncertified_frames) line["uncertified_frames"] = *all.uncertified_frames;
   return line.dump() + "\n";
 }
 
@@ -132,6 +136,11 @@ std::string LiveHealth::Metrics() const {
       [](const SensorCounts& counts) { return Number(Seconds(counts.compute_ns)); });
   add("railcast_compute_seconds_max", "gauge", "Longest time in which a frame was made.",
       [](const SensorCounts& counts) { return Number(Seconds(counts.max_compute_ns)); });
+  if (sensors_.empty() || !sensors_.front().uncertified_frames) return text;
+  add("railcast_uncertified_frames_total", "counter",
+      "Frames for whose certificates there was no time.", [](const SensorCounts& counts) {
+        return std::to_string(counts.uncertified_frames.value_or(0));
+      });
   return text;
 }
 

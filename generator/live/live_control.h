@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,6 +52,7 @@ class LiveHealth {
     std::string name;
     std::uint64_t frames{}, late_frames{}, dropped_frames{};
     std::int64_t compute_ns{}, max_compute_ns{};
+    std::optional<std::uint64_t> uncertified_frames;
   };
 
   [[nodiscard]] std::string Status() const;

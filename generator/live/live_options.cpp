@@ -8,6 +8,7 @@
 #include "core/program/command_line.h"
 #include "generator/live/live_clock.h"
 #include "generator/live/live_extras.h"
+#include "generator/run/run_options.h"
 #include "railcast/effects.h"
 #include "railcast/scenario.h"
 
@@ -120,6 +121,7 @@ void AddStreamOptions(ProgramOptions& stream, StreamOptions& options) {
   AddThreads(stream, options.num_threads);
   stream.AddOption("--fidelity", options.fidelity, "Fidelity to use instead of the scenario's")
       .Check(Named(NamesOf<Fidelity>()));
+  AddCertify(stream, options.certify);
   AddSummaryFile(stream, options.summary);
   AddIsa(stream, options.isa);
 }

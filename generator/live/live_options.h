@@ -52,6 +52,7 @@ struct StreamOptions : CommandOptions, RosOptions {
   std::optional<std::string> fields;
   bool has_all_slots = false;  ///< For protocol railcast.
   std::string pacing = "spread";
+  std::string certify = "off";  ///< As CertifiedShareOf() reads it.
   bool drops_late = false;
   bool fails_late = false;          ///< A late or dropped frame makes the exit status 1.
   bool sends_singly = false;        ///< Without UDP segmentation offload.

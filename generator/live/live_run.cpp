@@ -13,6 +13,10 @@ namespace {
 
 // The longest time until a waiting run notices that it was stopped.
 constexpr std::int64_t kPatience_ns = 50'000'000;
+// A certificate hardly ever takes longer than so many times what they take in the median.
+constexpr std::int64_t kLongestCertificate = 3;
+// As many are known to tell that median.
+constexpr std::uint64_t kLeastCertificates = 3;
 
 class LiveRun {
  public:
@@ -24,6 +28,7 @@ class LiveRun {
     for (const LiveSensor& sensor : sensors) {
       records_.push_back(
           {.name = sensor.name, .period_ns = sensor.period_ns, .sends = sensor.sends});
+      if (sensor.certify) records_.back().uncertified_frames = 0;
     }
     Restart();
   }
@@ -88,8 +93,13 @@ class LiveRun {
     return hooks_.is_stopped() || (spec_.duration_ns && NextStampNs() >= *spec_.duration_ns);
   }
 
+  /// The clock's time at which the next frames begin. Not in lockstep.
+  [[nodiscard]] std::int64_t BeginNs() const {
+    return clock_from_stamp_ns_ + NextStampNs() - spec_.lead_ns;
+  }
+
   [[nodiscard]] bool AwaitBegin() {
-    const std::int64_t begin_ns = clock_from_stamp_ns_ + NextStampNs() - spec_.lead_ns;
+    const std::int64_t begin_ns = BeginNs();
     queue_.SendUntil(begin_ns);
     std::mutex mutex;
     std::condition_variable never;
@@ -103,6 +113,7 @@ class LiveRun {
 
   void MakeFrames() {
     const std::int64_t stamp_ns = NextStampNs();
+    std::vector<std::size_t> made;
     for (std::size_t i = 0; i < sensors_.size(); ++i) {
       if (NextStampNs(i) != stamp_ns) continue;
       if (spec_.drops_late && next_[i] > 0 && clock_.NowNs() >= DeadlineNs(i, stamp_ns)) {
@@ -110,6 +121,7 @@ class LiveRun {
         ++records_[i].dropped_frames;
       } else {
         MakeFrame(i, stamp_ns);
+        made.push_back(i);
       }
     }
     if (spec_.lockstep) queue_.Flush();
@@ -117,6 +129,24 @@ class LiveRun {
     const std::int64_t behind_ns = now_ns - clock_from_stamp_ns_ - NextStampNs();
     hooks_.end_frames(
         {stamp_ns, now_ns, spec_.lockstep ? 0 : std::max<std::int64_t>(0, behind_ns), records_});
+    for (const std::size_t sensor : made) Certify(sensor);
+  }
+
+  /// Certifies the frame that a sensor has made, if there is time before the next frames begin.
+  void Certify(std::size_t sensor) {
+    if (!sensors_[sensor].certify) return;
+    LiveRecord& record = records_[sensor];
+    const std::int64_t usual_ns = record.certify.count() < kLeastCertificates
+                                      ? sensors_[sensor].certify_ns
+                                      : record.certify.QuantileNs(0.5);
+    const std::int64_t now_ns = clock_.NowNs();
+    const bool has_bound = !spec_.lockstep && !clock_.jumps();
+    if (has_bound && now_ns + kLongestCertificate * usual_ns > BeginNs()) {
+      ++*record.uncertified_frames;
+      return;
+    }
+    sensors_[sensor].certify();
+    record.certify.Add(clock_.NowNs() - now_ns);
   }
 
   /// Returns the time by which the frame must have been made: the end of its period, of an image

@@ -8,10 +8,12 @@
 #include <string_view>
 #include <vector>
 
+#include "core/certify/certified_figures.h"
 #include "core/io/datagrams.h"
 #include "core/program/duration_histogram.h"
 #include "generator/live/datagram_queue.h"
 #include "generator/live/live_clock.h"
+#include "railcast/frame.h"
 
 namespace railcast {
 
@@ -29,6 +31,10 @@ struct LiveSensor {
   /// Called from another thread than `make`, possibly while `make` is working on the next frame.
   DatagramQueue::Send send;
   std::string_view sends = "datagrams";  ///< What it sends, as the summary calls it.
+  const Frame* frame = nullptr;          ///< The one that was made last; null = unknown.
+  /// Certifies that frame; empty = frames are not certified.
+  std::function<void()> certify{};
+  std::int64_t certify_ns{};  ///< What that took before the run.
 };
 
 enum class Pacing {
@@ -50,6 +56,11 @@ struct LiveRecord {
   DurationHistogram compute{};     ///< Time for scanning and encoding, by frame.
   SentRecord sent{};
   std::string_view sends = "datagrams";  ///< LiveSensor::sends.
+  /// Frames for whose certificates there was no time; absent where frames are not certified.
+  std::optional<std::uint64_t> uncertified_frames{};
+  DurationHistogram certify{};  ///< Time for a certificate, by frame.
+  std::optional<RunCertificate>
+      certificate{};  ///< Of all frames since the last reset; not set here.
 };
 
 /// The progress of a run after the frames of one stamp.
@@ -105,6 +116,9 @@ struct LiveResult {
 /// frames are made as fast as possible until the run has caught up. With drops_late, instead, a
 /// frame whose period has ended before work on it begins is left out entirely; the other frames are
 /// unaffected. A sensor's frame 0 is always made.
+///
+/// Frames are certified once all of their stamp are made (in lockstep, sent), if that will be done
+/// before the next ones begin. In lockstep and by a clock that jumps there is always time.
 [[nodiscard]] LiveResult RunLive(const LiveRunSpec& spec,
                                  const std::vector<LiveSensor>& sensors,
                                  const LiveHooks& hooks,

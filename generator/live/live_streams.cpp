@@ -179,7 +179,15 @@ void LiveStreams::WarmUp(const std::function<bool()>& is_stopped) {
   watch(true);
   try {
     ChooseFidelity();
-    for (std::size_t i = 0; i < frames_.size(); ++i) maker_.At(i, 0).Scan(0, frames_[i]);
+    const std::vector<std::string> names = SensorNames(maker_.scenario());
+    for (std::size_t i = 0; i < frames_.size(); ++i) {
+      if (certified_share_) {
+        const ScenarioSpec alone = PickSensor(maker_.scenario(), names[i]);
+        certificates_.try_emplace(names[i], maker_, i, alone, *certified_share_);
+      }
+      maker_.At(i, 0).Scan(0, frames_[i]);
+      if (certified_share_) certificates_.at(names[i]).Try(frames_[i]);
+    }
   } catch (const RunStopped&) {
     // The run has been stopped and ends without a frame.
   }
@@ -200,6 +208,12 @@ void LiveStreams::MakeFrame(SensorStream& stream, std::uint32_t frame, Datagrams
   simulator.Execute([&] { stream.Encode(frames_[sensor], datagrams); });
 }
 
+void LiveStreams::AddCertificates(std::vector<LiveRecord>& records) const {
+  for (LiveRecord& record : records) {
+    if (record.uncertified_frames) record.certificate = certificates_.at(record.name).Result();
+  }
+}
+
 std::vector<LiveSensor> LiveStreams::Sensors() {
   std::vector<LiveSensor> sensors;
   for (const auto& each : streams_) {
@@ -213,9 +227,16 @@ std::vector<LiveSensor> LiveStreams::Sensors() {
                                  Datagrams& datagrams) { MakeFrame(stream, frame, datagrams); },
          .send = [&stream](
                      const Datagrams& datagrams,
-                     std::span<const Datagrams::Item> items) { stream.Send(datagrams, items); }});
+                     std::span<const Datagrams::Item> items) { stream.Send(datagrams, items); },
+         .frame = &frames_[stream.spec().sensor]});
   }
   if (topics_ != nullptr) std::ranges::move(topics_->Sensors(), std::back_inserter(sensors));
+  for (LiveSensor& sensor : sensors) {
+    const auto at = certificates_.find(sensor.name);
+    if (at == certificates_.end()) continue;
+    sensor.certify = [&to = at->second, frame = sensor.frame] { to.Add(*frame); };
+    sensor.certify_ns = at->second.tried_ns();
+  }
   if (!camera_) return sensors;
   const ScanPattern& pattern = maker_.pattern(0);
   CameraStream& camera = *camera_;
@@ -238,6 +259,7 @@ void LiveStreams::Restart() {
   ++run_;
   if (camera_) camera_->Restart(run_);
   for (const auto& stream : streams_) stream->Restart(run_);
+  for (auto& [name, certificate] : certificates_) certificate.Restart();
 }
 
 void LiveStreams::SetClocks(std::int64_t now_ns, std::int64_t lead_ns) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -10,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "core/certify/certified_figures.h"
+#include "core/certify/certifier.h"
 #include "core/io/datagrams.h"
 #include "core/io/net/udp.h"
 #include "generator/live/live_clock.h"
@@ -137,6 +140,43 @@ class SensorStream {
   std::optional<std::string> capture_fault_;
 };
 
+/// Certifies the frames of a sensor and adds up what that tells.
+class LiveCertificate {
+ public:
+  /// So many firings, some 100 bytes each, tell enough: then nothing more is done.
+  static constexpr std::uint64_t kMostDrawn = 1'000'000;
+
+  /// @param maker Must outlive this object. The sensor has the effects of its frames.
+  /// @param scenario With this sensor alone.
+  /// @throws InputError as Certifier does.
+  LiveCertificate(FrameMaker& maker,
+                  std::size_t sensor,
+                  const ScenarioSpec& scenario,
+                  double cost_share);
+
+  /// Certifies frames that are not added, and keeps the time that one takes.
+  void Try(const Frame& frame);
+  [[nodiscard]] std::int64_t tried_ns() const { return tried_ns_; }
+
+  /// @pre Commands that came after the frame are not applied yet.
+  void Add(const Frame& frame);
+  /// Forgets all frames: those that are made again would be drawn from in the same way.
+  void Restart();
+
+  [[nodiscard]] RunCertificate Result() const { return sums_.Result(maker_.labels()); }
+
+ private:
+  [[nodiscard]] FrameCertificate Certify(const Frame& frame);
+
+  FrameMaker& maker_;
+  std::size_t sensor_;
+  Certifier certifier_;
+  CertifySpec spec_;
+  CertificateSums sums_;
+  std::uint64_t num_drawn_ = 0;
+  std::int64_t tried_ns_{};
+};
+
 /// All sensors of one vehicle and the destinations of their frames; they share one world and one
 /// clock. Frames of protocol ros2 go to LiveTopics, all others over UDP. If the scenario has a
 /// camera with receivers, its images accompany the frames of the first sensor, unless nothing is
@@ -162,10 +202,17 @@ class LiveStreams {
   /// @param topics Opened with maker(), must outlive this object; null where no sensor is of ros2.
   void Publish(LiveTopics* topics);
 
+  /// Has the frames of all sensors certified. To be called before WarmUp().
+  /// @param cost_share As Certifier takes it.
+  void Certify(double cost_share) { certified_share_ = cost_share; }
+  /// Adds what the certificates tell to a run's records.
+  void AddCertificates(std::vector<LiveRecord>& records) const;
+
   /// Does slow work beforehand, so that it makes no frame late: builds the scene of frame 0 and, if
   /// the scenario asks for it, makes fidelity auto's choice. From now on the building of scenes is
   /// watched as by WatchBuilding(). Returns early if stopped.
   /// @pre No frame has been made.
+  /// @throws InputError as LiveCertificate does.
   void WarmUp(const std::function<bool()>& is_stopped);
 
   /// Returns the sensors for RunLive(): those of UDP, those of ROS 2, the camera. Valid as long as
@@ -198,6 +245,9 @@ class LiveStreams {
   LiveTopics* topics_ = nullptr;
   std::unique_ptr<CameraStream> camera_;  ///< Null if no images are sent.
   std::vector<Frame> frames_;             ///< By sensor.
+  std::optional<double> certified_share_;
+  /// By name of the sensor; empty if frames are not certified.
+  std::map<std::string, LiveCertificate> certificates_;
   std::uint32_t run_;
 };
 

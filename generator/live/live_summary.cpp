@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/base/units.h"
+#include "core/io/record/record_text.h"
 
 namespace railcast {
 namespace {
@@ -31,6 +32,18 @@ Json Times(const DurationHistogram& times) {
           {"p95", static_cast<double>(times.QuantileNs(0.95)) / kNsPerMs},
           {"p99", static_cast<double>(times.QuantileNs(0.99)) / kNsPerMs},
           {"max", static_cast<double>(times.max_ns()) / kNsPerMs}};
+}
+
+void PutTimes(const LiveRecord& record, std::ostream& text) {
+  text << "  " << std::left << std::setw(kHeadWidth) << "" << std::right;
+  for (const std::string_view head : {"p50", "p95", "p99", "max"}) {
+    text << std::setw(kNumberWidth) << head;
+  }
+  text << "\n";
+  PutQuantiles("compute", record.compute, text);
+  PutQuantiles("send", record.sent.send, text);
+  PutQuantiles("lateness", record.sent.lateness, text);
+  if (record.uncertified_frames) PutQuantiles("certify", record.certify, text);
 }
 
 // Empty where no frame was dropped.
@@ -78,15 +91,11 @@ std::string LiveSummary(const std::vector<LiveRecord>& records,
          << record.sent.datagrams << " " << record.sends << ", " << record.sent.bytes
          << " bytes; to receivers " << delivered[i].sent << " sent, " << delivered[i].refused
          << " refused\n";
-    if (!has_times) continue;
-    text << "  " << std::left << std::setw(kHeadWidth) << "" << std::right;
-    for (const std::string_view head : {"p50", "p95", "p99", "max"}) {
-      text << std::setw(kNumberWidth) << head;
-    }
-    text << "\n";
-    PutQuantiles("compute", record.compute, text);
-    PutQuantiles("send", record.sent.send, text);
-    PutQuantiles("lateness", record.sent.lateness, text);
+    if (has_times) PutTimes(record, text);
+    if (record.certificate) text << CertificateText(*record.certificate);
+    if (!record.uncertified_frames) continue;
+    text << "  " << *record.uncertified_frames << " of " << record.frames
+         << " frames were not certified for want of time\n";
   }
   return text.str();
 }
@@ -111,6 +120,12 @@ std::string LiveSummaryJson(std::string_view command,
                        {"compute_ms", times(record.compute)},
                        {"send_ms", times(record.sent.send)},
                        {"lateness_ms", times(record.sent.lateness)}});
+    if (!record.uncertified_frames) continue;
+    sensors.back()["certify_ms"] = times(record.certify);
+    sensors.back()["uncertified_frames"] = *record.uncertified_frames;
+    if (record.certificate) {
+      sensors.back()["certificate"] = Json::parse(RecordText(*record.certificate));
+    }
   }
   const Json fault = result.fault ? Json(*result.fault) : Json();
   const Json summary = {{"command", command},

@@ -286,6 +286,7 @@ LiveResult RunBy(const StreamOptions& options,
 int RunStream(const StreamOptions& options) {
   const ScenarioSpec scenario = ReadForStream(options);
   CheckOptionsTogether(options, SensorNames(scenario).size());
+  const std::optional<double> certified_share = CertifiedShareOf(options.certify);
   if (options.summary) CheckCanWrite(*options.summary);
   const std::vector<SensorStreamSpec> plan = PlanStreams(options, scenario);
   const LiveExtras& extras = LiveExtras::Get();
@@ -296,6 +297,7 @@ int RunStream(const StreamOptions& options) {
   // checked.
   LiveStreams streams(scenario, plan, options.num_threads, RunNumber(options), isa,
                       HearsCommands(options) ? std::nullopt : spec.duration_ns);
+  if (certified_share) streams.Certify(*certified_share);
   const auto http = extras.packets ? extras.packets->accompany(options, scenario, plan) : nullptr;
   LiveHealth health;
   const auto health_server = OpenHealth(options, health);
@@ -316,10 +318,11 @@ int RunStream(const StreamOptions& options) {
   LiveControl control(streams, commands ? &*commands : nullptr, options, health);
   SetClocks(streams, options, spec.lead_ns);
   control.Begin();
-  const LiveResult result = RunBy(options, spec, streams, control);
+  LiveResult result = RunBy(options, spec, streams, control);
   if (commands) commands->End(result.fault.value_or("the run has ended"));
   streams.Finish();
   control.End();
+  streams.AddCertificates(result.records);
   ReportCommands(channel.get(), topics.get());
   return ReportRun(result, streams, options);
 }

@@ -113,7 +113,8 @@ std::vector<LiveSensor> RosOutput::Sensors() {
              [this, &sensor](const Datagrams& datagrams, std::span<const Datagrams::Item> items) {
                writers_.Send(datagrams, items, sensor.counts);
              },
-         .sends = "messages"});
+         .sends = "messages",
+         .frame = &sensor.made.frame});
   }
   return sensors;
 }
