@@ -66,6 +66,27 @@ TEST(LiveSummaryJson, IsOneLineOfTheSameNumbers) {
   EXPECT_TRUE(untimed.at("sensors").at(0).at("lateness_ms").is_null());
 }
 
+TEST(LiveSummary, TellsWhatWasCertifiedIfAnythingIsToBe) {
+  LiveRecord record{.name = "front", .frames = 3};
+  record.uncertified_frames = 2;
+  record.certify.Add(1'000'000);
+  record.certificate = RunCertificate{.cost_share = 0.01, .frames = 1, .firings = 900, .drawn = 4};
+  const std::string text = LiveSummary({record}, {{0, 0}}, true);
+  EXPECT_TRUE(text.ends_with(
+      "  certify        1.000     1.000     1.000     1.000 ms\n"
+      "certificate: too few echoes were drawn to tell; 4 of 900 firings were made anew on rung "
+      "reference\n"
+      "  2 of 3 frames were not certified for want of time\n"))
+      << text;
+  const auto front =
+      nlohmann::json::parse(LiveSummaryJson("stream", {{record}, std::nullopt}, {{0, 0}}, {}, true))
+          .at("sensors")
+          .at(0);
+  EXPECT_EQ(front.at("uncertified_frames"), 2);
+  EXPECT_EQ(front.at("certify_ms").at("max"), 1.0);
+  EXPECT_EQ(front.at("certificate").at("drawn"), 4);
+}
+
 TEST(LateText, CountsAllSensorsAndIsEmptyIfAllWasInTime) {
   EXPECT_EQ(LateText({{.frames = 3}, {.frames = 4}}), "");
   EXPECT_EQ(LateText({{.frames = 3, .late_frames = 1}, {.frames = 4, .late_frames = 2}}),

@@ -79,6 +79,7 @@ TEST(Stream, WritesTheSameCaptureEachTimeAtAnyThreadCount) {
   EXPECT_GT(once.size(), 20'000U);
   EXPECT_TRUE(once == capture("b.pcap", "--threads 2"));
   EXPECT_FALSE(once == capture("c.pcap", "--seed 9"));
+  EXPECT_TRUE(once == capture("d.pcap", "--certify 50%"));
 }
 
 TEST(Stream, EndsInOrderOnASignal) {

@@ -198,6 +198,14 @@ railcast_compute_seconds_max{sensor="a \"\\ b"} 0.0
 )");
 }
 
+TEST_F(LiveHealthTest, CountsFramesThatWereNotCertifiedIfSomeAreToBe) {
+  records_[0].uncertified_frames = 2;
+  Update();
+  EXPECT_THAT(Health(), HasSubstr(R"("behind_s":0.25,"uncertified_frames":2})"));
+  EXPECT_THAT(health_.Answer({.method = "GET", .target = "/metrics", .body = {}}).body,
+              HasSubstr("railcast_uncertified_frames_total{sensor=\"front\"} 2\n"));
+}
+
 TEST_F(LiveHealthTest, AnswersNothingElse) {
   EXPECT_EQ(health_.Answer({.method = "GET", .target = "/", .body = {}}).status, 404U);
   EXPECT_EQ(health_.Answer({.method = "POST", .target = "/health", .body = {}}).status, 405U);
