@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/random.h"
+#include "core/base/text.h"
 #include "core/detect/base/beam_optics.h"
 #include "core/fidelity/frame_comparison.h"
 
@@ -157,6 +158,17 @@ class CellDraws {
 
 }  // namespace
 
+std::optional<double> CertifiedShareOf(const std::string& text) {
+  if (text == "off") return std::nullopt;
+  constexpr double kMostPercent = 10'000.0;
+  const bool has_percent = text.ends_with('%');
+  const auto percent =
+      has_percent ? ParseNumber<double>(text.substr(0, text.size() - 1)) : std::nullopt;
+  if (percent && *percent > 0.0 && *percent <= kMostPercent) return *percent / 100.0;
+  throw InputError("--certify: must be off, or a share of the frames' time such as 1% (got " +
+                   ShownText(text) + ")");
+}
+
 double NumCertified(const ScenarioSpec& scenario,
                     const DetectorSpec& own,
                     std::size_t num_firings,
@@ -211,11 +223,13 @@ double Certifier::ProbabilityOf(const Stratum& stratum) const {
 
 FrameCertificate Certifier::Certify(Simulator& simulator,
                                     BegunFrame& begun,
-                                    const Frame& frame) const {
+                                    const Frame& frame,
+                                    const CertifiedRegion* region) const {
   const std::vector<std::uint8_t> edges = EdgesOf(frame);
   StrataCounter counter;
   for (std::size_t cell = 0; cell < edges.size(); ++cell) {
-    counter.Count(StratumOf(frame, cell, edges[cell] != 0));
+    if (region == nullptr || region->cells[cell])
+      counter.Count(StratumOf(frame, cell, edges[cell] != 0));
   }
   FrameCertificate certificate{counter.Strata(), {}};
   double most = 0.0;
@@ -229,6 +243,7 @@ FrameCertificate Certifier::Certify(Simulator& simulator,
   for (auto draw = draws.Next(); draw.cell < static_cast<double>(edges.size());
        draw = draws.Next()) {
     const auto cell = static_cast<std::uint32_t>(draw.cell);
+    if (region != nullptr && !region->cells[cell]) continue;
     const Stratum stratum = StratumOf(frame, cell, edges[cell] != 0);
     const auto at =
         std::ranges::find(certificate.strata, stratum, [](const Stratum& each) { return each; });
@@ -239,14 +254,21 @@ FrameCertificate Certifier::Certify(Simulator& simulator,
   if (cells.empty()) return certificate;
   std::vector<Frame> frames(2 + rungs_.size());
   simulator.ScanFirings(begun, cells, frames);
-  const Frame& reference = frames[0];
+  const auto compare = [&](const Frame& other, std::size_t i) {
+    std::vector<CertifiedEcho> echoes = Compare(frames[0], other, i, match_distance_m_);
+    if (region == nullptr) return echoes;
+    std::erase_if(echoes, [&](const CertifiedEcho& echo) {
+      return !region->instances.contains(echo.instance);
+    });
+    return echoes;
+  };
   for (std::size_t i = 0; i < cells.size(); ++i) {
     DrawnFiring& drawn = certificate.drawn.emplace_back();
     drawn.cell = cells[i];
     drawn.stratum = strata[i];
-    drawn.echoes = Compare(reference, frames[1], i, match_distance_m_);
+    drawn.echoes = compare(frames[1], i);
     for (std::size_t k = 2; k < frames.size(); ++k) {
-      drawn.rungs.push_back(CountsOf(Compare(reference, frames[k], i, match_distance_m_)));
+      drawn.rungs.push_back(CountsOf(compare(frames[k], i)));
     }
   }
   return certificate;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "core/certify/certificate.h"
@@ -11,6 +13,12 @@
 #include "railcast/simulator.h"
 
 namespace railcast {
+
+/// What of a frame is certified.
+struct CertifiedRegion {
+  std::vector<bool> cells{};            ///< The firings, by cell: all others are left out.
+  std::set<std::uint32_t> instances{};  ///< Only echoes of these objects are counted.
+};
 
 /// Certifies the frames of a simulator: draws some firings of each, makes them anew on rung
 /// `reference` and on those beside the run's own, in the same scene and with the same random draws,
@@ -35,9 +43,12 @@ class Certifier {
   /// Thread-safe for different frames, as Simulator::Scan().
   /// @param simulator The same, with the same effects.
   /// @param frame As the simulator made it.
+  /// @param region Null for all of it. A frame of ScanNearObjects() is certified as to these
+  ///   objects, with the firings of FiringsNearObjects().
   [[nodiscard]] FrameCertificate Certify(Simulator& simulator,
                                          BegunFrame& begun,
-                                         const Frame& frame) const;
+                                         const Frame& frame,
+                                         const CertifiedRegion* region = nullptr) const;
 
   /// Those beside the run's own, whose errors are found on the same firings.
   [[nodiscard]] const std::vector<RungBeside>& rungs() const { return rungs_; }
@@ -47,7 +58,6 @@ class Certifier {
   [[nodiscard]] double ProbabilityOf(const Stratum& stratum) const;
 
  private:
-
   std::uint64_t seed_;
   float match_distance_m_;
   std::set<std::uint32_t> vague_labels_;  ///< Of plants, wires and nets.
@@ -62,5 +72,9 @@ class Certifier {
                                   const DetectorSpec& own,
                                   std::size_t num_firings,
                                   double cost_share);
+
+/// The share of the time that `--certify` gives: 0.01 of "1%"; nothing of "off".
+/// @throws InputError if it is neither.
+[[nodiscard]] std::optional<double> CertifiedShareOf(const std::string& text);
 
 }  // namespace railcast

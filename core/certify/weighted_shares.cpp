@@ -111,7 +111,7 @@ double WeightedShares::VarianceOf(const std::vector<double>& values,
     double squares = 0.0;
     for (const std::size_t i : group.drawn) {
       const double residual = weights[i] * (values[i] - mean);
-      squares += residual * residual * (1.0 - strata_.at(drawn_[i]).probability);
+      squares += residual * residual * (1.0 - probabilities_[i]);
     }
     variance += squares * num / (num - 1.0);
   }

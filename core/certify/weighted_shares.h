@@ -41,8 +41,12 @@ class WeightedShares {
 
   /// Adds firings of a stratum, drawn or not.
   void AddFirings(const Stratum& stratum, std::uint64_t num, double probability);
-  /// Adds a drawn one of them; they are numbered from 0.
-  void AddDrawn(const Stratum& stratum) { drawn_.push_back(stratum); }
+  /// Adds a drawn one of those that were added last, whose probability it has; they are numbered
+  /// from 0.
+  void AddDrawn(const Stratum& stratum) {
+    drawn_.push_back(stratum);
+    probabilities_.push_back(strata_.at(stratum).probability);
+  }
 
   [[nodiscard]] std::size_t num_drawn() const { return drawn_.size(); }
   [[nodiscard]] std::uint64_t num_firings() const { return num_firings_; }
@@ -66,16 +70,14 @@ class WeightedShares {
  private:
   struct Population {
     std::uint64_t num{};
-    double probability{};
+    double probability{};  ///< Of those that were added last.
   };
   struct Group {
     std::uint64_t num_firings{};
     std::vector<std::size_t> drawn{};
   };
   [[nodiscard]] std::vector<Group> Groups() const;
-  [[nodiscard]] double WeightOf(std::size_t drawn) const {
-    return 1.0 / strata_.at(drawn_[drawn]).probability;
-  }
+  [[nodiscard]] double WeightOf(std::size_t drawn) const { return 1.0 / probabilities_[drawn]; }
   /// What each drawn firing stands for.
   [[nodiscard]] std::vector<double> Weights(const std::vector<Group>& groups) const;
   /// How many independent items would tell a share as well.
@@ -88,6 +90,7 @@ class WeightedShares {
 
   std::map<Stratum, Population> strata_;
   std::vector<Stratum> drawn_;
+  std::vector<double> probabilities_;  ///< With which these were drawn.
   std::uint64_t num_firings_ = 0;
 };
 

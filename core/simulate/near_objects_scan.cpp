@@ -37,6 +37,13 @@ void ClearSlots(Frame& frame) {
   std::ranges::fill(frame.return_count, std::uint8_t{0});
 }
 
+BeamReach ReachInFrame(const SimulatorSpec& spec, std::int64_t stamp_ns, double beside_rad) {
+  return {.stamp_ns = stamp_ns,
+          .vehicle_from_sensor = spec.vehicle_from_sensor * spec.nominal_from_true,
+          .beside_rad = beside_rad,
+          .range_max_m = spec.detector.range_max_m};
+}
+
 }  // namespace
 
 void Simulator::ScanNearObjects(BegunFrame& begun,
@@ -51,10 +58,7 @@ void Simulator::ScanNearObjects(BegunFrame& begun,
     const ScanPattern& pattern = parts.pattern.repeats() ? parts.pattern : of_frame;
     const std::vector<bool> is_near = BeamsNearObjects(
         world(), objects, pattern,
-        {.stamp_ns = begun.stamp_ns,
-         .vehicle_from_sensor = parts.spec.vehicle_from_sensor * parts.spec.nominal_from_true,
-         .beside_rad = BesideBeam_rad(parts.spec.detector),
-         .range_max_m = parts.spec.detector.range_max_m});
+        ReachInFrame(parts.spec, begun.stamp_ns, BesideBeam_rad(parts.spec.detector)));
     const FiringTiles& all = parts.TilesOf(begun);
     frame.has_velocity = parts.spec.detector.velocity.has_value();
     parts.Prepare(begun.index, all, frame);
@@ -67,6 +71,27 @@ void Simulator::ScanNearObjects(BegunFrame& begun,
       parts.Fill(*parts.own, parts.CastOf(*parts.own, scene, firings), firings, frame);
     }
     all.StoreConstants(frame);
+  });
+}
+
+std::vector<bool> Simulator::FiringsNearObjects(BegunFrame& begun,
+                                                std::span<const std::size_t> objects) const {
+  const Parts& parts = *parts_;
+  double beside_rad = BesideBeam_rad(parts.spec.detector);
+  for (const Detection& other : parts.others) {
+    beside_rad = std::max(beside_rad, BesideBeam_rad(other.detector));
+  }
+  return WithinMemory(parts.Making(begun.index), [&] {
+    const ScanPattern of_frame =
+        parts.pattern.repeats() ? ScanPattern() : PatternOfFrame(parts.pattern, begun.index);
+    const ScanPattern& pattern = parts.pattern.repeats() ? parts.pattern : of_frame;
+    const std::vector<bool> is_near = BeamsNearObjects(
+        world(), objects, pattern, ReachInFrame(parts.spec, begun.stamp_ns, beside_rad));
+    std::vector<bool> by_cell(std::size_t{pattern.rows} * pattern.columns);
+    for (std::size_t i = 0; i < is_near.size(); ++i) {
+      by_cell[pattern.row[i] * pattern.columns + pattern.column[i]] = is_near[i];
+    }
+    return by_cell;
   });
 }
 

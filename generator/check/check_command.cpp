@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/certify/certifier.h"
 #include "core/fidelity/choice_report.h"
 #include "core/io/write_file.h"
 #include "core/scenario/track_limits.h"

@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/certify/certifier.h"
 #include "core/io/cloud/track_fields.h"
 #include "core/io/run/camera_files.h"
 #include "core/io/run/sensors_record.h"
@@ -261,17 +262,6 @@ void SetFrames(const FrameMaker& maker, RunPlan& plan) {
     }
     SetTrack(maker, plan, plan.sensors[i]);
   }
-}
-
-std::optional<double> CertifiedShareOf(const std::string& text) {
-  if (text == "off") return std::nullopt;
-  constexpr double kMostPercent = 10'000.0;
-  const bool has_percent = text.ends_with('%');
-  const auto percent =
-      has_percent ? ParseNumber<double>(text.substr(0, text.size() - 1)) : std::nullopt;
-  if (percent && *percent > 0.0 && *percent <= kMostPercent) return *percent / 100.0;
-  throw InputError("--certify: must be off, or a share of the frames' time such as 1% (got " +
-                   ShownText(text) + ")");
 }
 
 void CheckHasStamp(const std::string& option, const ScanPattern& pattern, std::uint32_t frame) {

@@ -127,10 +127,6 @@ void UseCommands(const std::filesystem::path& log, const ScenarioSpec& whole, Ru
 ///   frame, or a frame's stamp does not fit into 64 bits.
 void SetFrames(const FrameMaker& maker, RunPlan& plan);
 
-/// The share of the time that `--certify` gives: 0.01 of "1%"; nothing of "off".
-/// @throws InputError if it is neither.
-[[nodiscard]] std::optional<double> CertifiedShareOf(const std::string& text);
-
 /// The numbers that command lines may give to frames.
 inline constexpr std::uint64_t kMaxFrame = 1'000'000'000;
 

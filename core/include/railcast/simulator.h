@@ -200,6 +200,13 @@ class Simulator {
   /// @param objects Indices into world().objects().
   void ScanNearObjects(BegunFrame& begun, std::span<const std::size_t> objects, Frame& frame);
 
+  /// Which beams of a frame may meet one of some objects, with the simulator's own effects or with
+  /// those of a variant: all that do are among them, and some that do not.
+  /// @param objects As for ScanNearObjects().
+  /// @return By cell, row * columns + column.
+  [[nodiscard]] std::vector<bool> FiringsNearObjects(BegunFrame& begun,
+                                                     std::span<const std::size_t> objects) const;
+
   /// Tells the ways in which ScanFirings() makes firings.
   void UseVariants(std::vector<FiringVariant> variants);
   /// Makes some firings of a begun frame in every variant, in the scene that the frame itself is

@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/certify/certifier.h"
 #include "core/extras/recipe/recipe_files.h"
 #include "core/extras/recipe/scenario_turns.h"
 #include "core/io/content_hash.h"
