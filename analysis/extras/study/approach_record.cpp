@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -72,6 +73,33 @@ ApproachAlarms AlarmsOf(const EvaluatedRun& run) {
   return {.driven_m = run.driven_m, .beside = run.ObjectsBeside(), .alarms = run.alarms};
 }
 
+void ApproachCertificate::Add(const FrameCertificate& frame) {
+  if (frame.strata.empty()) return;
+  ++frames;
+  std::vector<std::uint32_t> places;
+  for (const StratumCount& stratum : frame.strata) {
+    const auto same = std::ranges::find(sum.strata, static_cast<const Stratum&>(stratum),
+                                        [](const Stratum& each) { return each; });
+    places.push_back(static_cast<std::uint32_t>(same - sum.strata.begin()));
+    if (same == sum.strata.end()) {
+      sum.strata.push_back(stratum);
+    } else {
+      same->firings += stratum.firings;
+    }
+  }
+  for (DrawnFiring drawn : frame.drawn) {
+    drawn.stratum = places[drawn.stratum];
+    drawn.rungs.clear();
+    sum.drawn.push_back(std::move(drawn));
+  }
+}
+
+void Describe(Archive& a, ApproachCertificate& s) {
+  a.Required("frames", s.frames, "In which a beam may meet an object.");
+  a.Required("objects", s.objects, "Instances of those whose echoes count, by name.");
+  Describe(a, s.sum);
+}
+
 void Describe(Archive& a, StudiedObject& s) {
   a.Required("name", s.name, "");
   a.Required("type", s.type, "");
@@ -116,6 +144,7 @@ void Describe(Archive& a, ApproachRecord& s) {
   a.Optional("false_alarms", alarms, "");
   a.Ensure({"driven_m"}, driven_m.has_value() == (beside && alarms),
            "must stand with beside and false_alarms");
+  a.Optional("certificate", s.certificate, "The numerical error of the objects' echoes.");
   if (driven_m && beside && alarms) s.alarms = {*driven_m, *beside, *alarms};
 }
 

@@ -8,6 +8,7 @@
 
 #include "analysis/detectability/object_detection.h"
 #include "analysis/extras/detectors/run_evaluation.h"
+#include "core/certify/certificate.h"
 #include "core/extras/recipe/scenario_draw.h"
 #include "core/scenario/json_text.h"
 #include "core/scenario/value_type.h"
@@ -56,6 +57,20 @@ struct ApproachAlarms {
   std::vector<FalseAlarm> alarms{};
 };
 
+/// What is known of the numerical error of an approach: the certificates of its frames, as to the
+/// echoes of the objects that were followed. A figure weighs drawn firings by their strata,
+/// whichever frame they are of, so that the frames' strata are added up, and nothing is lost but
+/// the frames.
+struct ApproachCertificate {
+  std::uint32_t frames{};
+  std::map<std::string, std::uint32_t> objects{};  ///< Instances by name.
+  FrameCertificate sum{};                          ///< Without what other rungs would give.
+
+  /// Adds a frame, if any beam of it may meet an object.
+  void Add(const FrameCertificate& frame);
+};
+void Describe(Archive& a, ApproachCertificate& s);
+
 /// One approach of a study.
 struct ApproachRecord {
   std::uint32_t scenario{};
@@ -64,6 +79,7 @@ struct ApproachRecord {
   std::map<std::string, Json> drawn{};     ///< By name or JSON pointer.
   std::vector<StudiedObject> objects{};    ///< Those in the way that are approached.
   std::optional<ApproachAlarms> alarms{};  ///< Of studies with a detector.
+  std::optional<ApproachCertificate> certificate{};
 };
 
 /// A line of approaches.jsonl.

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <span>
 
-#include "analysis/extras/study/approach_record.h"
 #include "core/base/error.h"
 #include "railcast/lidar.h"
 
@@ -93,6 +92,25 @@ void ApproachScanner::Use(const ScenarioSpec& scenario) {
   simulator_->Use(spec);
   world_ = MakeWorld(scenario);
   simulator_->UseWorld(world_);
+  certifier_.reset();
+  certificate_.reset();
+  // A recipe may draw the reference itself for some of its scenarios, which needs no certificate.
+  if (!certify_ || spec.detector.effects.dense_footprint) return;
+  certifier_.emplace(scenario, *certify_, *simulator_);
+  certificate_.emplace();
+}
+
+void ApproachScanner::Certify(BegunFrame& begun,
+                              std::span<const std::size_t> objects,
+                              const Frame& frame) {
+  if (!certifier_) return;
+  CertifiedRegion region{.cells = simulator_->FiringsNearObjects(begun, objects)};
+  for (const std::size_t i : objects) {
+    const SceneObject& object = world_->objects()[i];
+    region.instances.insert(object.instance);
+    certificate_->objects.emplace(object.name, object.instance);
+  }
+  certificate_->Add(certifier_->Certify(*simulator_, begun, frame, &region));
 }
 
 std::optional<RunCourses> ApproachScanner::Follow(const ScenarioSpec& scenario,
@@ -136,7 +154,9 @@ std::optional<RunCourses> ApproachScanner::Follow(const ScenarioSpec& scenario,
       if (target.course->sightings[target.next].frame == number) sought.push_back(target.object);
     }
     if (sought.empty()) continue;
-    simulator.ScanNearObjects(*simulator.Begin(frames[number]), sought, frame_);
+    const auto begun = simulator.Begin(frames[number]);
+    simulator.ScanNearObjects(*begun, sought, frame_);
+    Certify(*begun, sought, frame_);
     ++effort_.num_traced;
     for (Target& target : targets) {
       if (std::ranges::find(sought, target.object) == sought.end()) continue;
@@ -164,11 +184,18 @@ std::optional<EvaluatedRun> ApproachScanner::Evaluate(const ScenarioSpec& scenar
   const LabelTable labels(scenario.labels);
   ObjectSurvey survey(*world_, labels, range_max_m, in_sensor_axes.output);
   const std::vector<ObjectView> no_views(world_->objects().size());
+  std::vector<std::size_t> asked;
+  for (std::size_t i = 0; i < world_->objects().size(); ++i) {
+    const SceneObject& object = world_->objects()[i];
+    if (!object.is_ego && IsAskedAbout(object.name, objects_)) asked.push_back(i);
+  }
   RunEvaluator evaluator(own_track, labels, vehicle_from_sensor);
   recorded_.has_pose = true;
   for (const std::uint32_t index : frames) {
     if (is_stopped()) return std::nullopt;
-    simulator_->Scan(*simulator_->Begin(index), recorded_.frame);
+    const auto begun = simulator_->Begin(index);
+    simulator_->Scan(*begun, recorded_.frame);
+    Certify(*begun, asked, recorded_.frame);
     ForEachField(recorded_.frame, [&](const char* name, const char*, const auto&) {
       recorded_.fields.emplace(name);
     });

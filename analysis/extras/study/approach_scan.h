@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +14,8 @@
 #include "analysis/detectability/object_detection.h"
 #include "analysis/extras/detectors/cluster_detector.h"
 #include "analysis/extras/detectors/run_evaluation.h"
+#include "analysis/extras/study/approach_record.h"
+#include "core/certify/certifier.h"
 #include "core/io/run/object_survey.h"
 #include "railcast/frame.h"
 #include "railcast/io/recording.h"
@@ -31,14 +35,17 @@ class ApproachScanner {
   /// @param num_threads,isa As MakeSimulator() takes them.
   /// @param gauge Of the train; absent = the vehicle's outline.
   /// @param objects Those that are followed: StudySpec::objects.
+  /// @param certify Which share of the time certificates may take; absent = none are made.
   explicit ApproachScanner(int num_threads,
                            std::string isa = {},
                            std::optional<TrainGauge> gauge = {},
-                           std::vector<std::string> objects = {})
+                           std::vector<std::string> objects = {},
+                           std::optional<double> certify = {})
       : num_threads_(num_threads),
         isa_(std::move(isa)),
         gauge_(gauge),
-        objects_(std::move(objects)) {}
+        objects_(std::move(objects)),
+        certify_(certify) {}
 
   /// Whether it has the geometry of a scenario already.
   [[nodiscard]] bool HasSceneOf(const ScenarioSpec& scenario) const;
@@ -67,6 +74,12 @@ class ApproachScanner {
                                                      const DetectSpec& detect,
                                                      const std::function<bool()>& is_stopped);
 
+  /// The numerical error of the last scenario, as to the objects that were followed; absent where
+  /// it is not wanted, and on rung `reference`.
+  [[nodiscard]] const std::optional<ApproachCertificate>& certificate() const {
+    return certificate_;
+  }
+
   /// How much was traced since the scanner was made.
   struct Effort {
     std::uint64_t num_frames{};  ///< That were asked for.
@@ -76,16 +89,21 @@ class ApproachScanner {
 
  private:
   void Use(const ScenarioSpec& scenario);
+  /// Certifies what a frame has on some objects, if that is wanted.
+  void Certify(BegunFrame& begun, std::span<const std::size_t> objects, const Frame& frame);
 
   int num_threads_;
   std::string isa_;
   std::optional<TrainGauge> gauge_;
   std::vector<std::string> objects_;
+  std::optional<double> certify_;
   std::optional<ScenarioSpec> shared_;  ///< What the simulator's geometry depends on.
   std::unique_ptr<Simulator> simulator_;
   std::shared_ptr<const RailWorld> world_;  ///< Of the scenario.
   Frame frame_;
-  RecordedFrame recorded_;  ///< Whole frames, whose memory is used again.
+  RecordedFrame recorded_;              ///< Whole frames, whose memory is used again.
+  std::optional<Certifier> certifier_;  ///< Of the scenario, as is the certificate.
+  std::optional<ApproachCertificate> certificate_;
   Effort effort_;
 };
 

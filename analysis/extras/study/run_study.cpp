@@ -35,8 +35,8 @@ namespace {
 class ScannerPool {
  public:
   /// @param study Must outlive the pool.
-  ScannerPool(const StudySpec& study, std::string isa, std::size_t num_most)
-      : study_(study), isa_(std::move(isa)), num_most_(num_most) {}
+  ScannerPool(const StudySpec& study, const StudyChoices& choices, std::size_t num_most)
+      : study_(study), isa_(choices.isa), certify_(choices.certify), num_most_(num_most) {}
 
   [[nodiscard]] std::unique_ptr<ApproachScanner> Take(const ScenarioSpec& scenario,
                                                       int num_threads) {
@@ -47,7 +47,8 @@ class ScannerPool {
     }
     if (num_made_ < num_most_ || idle_.empty()) {
       ++num_made_;
-      return std::make_unique<ApproachScanner>(num_threads, isa_, study_.gauge, study_.objects);
+      return std::make_unique<ApproachScanner>(num_threads, isa_, study_.gauge, study_.objects,
+                                               certify_);
     }
     return TakeFrom(idle_.begin());  // The one that has been idle for longest.
   }
@@ -77,6 +78,7 @@ class ScannerPool {
 
   const StudySpec& study_;
   std::string isa_;
+  std::optional<double> certify_;
   std::size_t num_most_;
   std::mutex mutex_;
   Idle idle_;
@@ -94,7 +96,8 @@ StudyRecord IdentityOfStudy(const StudySpec& study,
                        .recipe_hash = ContentHash(ReadFileWhole(recipe.file)),
                        .files_hash = HashOfRecipeFiles(recipe),
                        .num_scenarios = recipe.num_scenarios,
-                       .frames = {recipe.warm_up_frames, recipe.stride, recipe.num_frames}};
+                       .frames = {recipe.warm_up_frames, recipe.stride, recipe.num_frames},
+                       .certify = choices.certify};
   for (std::size_t i = 0; i < recipe.bases.size(); ++i) {
     identity.base_hashes.push_back(bases.hash(i));
   }
@@ -189,7 +192,7 @@ StudyResult RunStudy(const StudySpec& study,
   const std::vector<std::uint32_t> frames = FramesOf(recipe);
   const int num_threads =
       choices.num_threads > 0 ? choices.num_threads : tbb::info::default_concurrency();
-  ScannerPool scanners(study, choices.isa, static_cast<std::size_t>(num_threads) + kMostIdle);
+  ScannerPool scanners(study, choices, static_cast<std::size_t>(num_threads) + kMostIdle);
   const std::uint32_t num_before = directory.num_done();
   const auto make = [&](const ScenarioTurn& turn) -> std::optional<std::string> {
     const std::uint32_t number = choices.shard.ScenarioAt(num_before + turn.index);
@@ -197,7 +200,8 @@ StudyResult RunStudy(const StudySpec& study,
     return AtPlace(PlaceOfScenario(recipe, number), [&]() -> std::optional<std::string> {
       CheckIsStudied(drawn.scenario);
       auto scanner = scanners.Take(drawn.scenario, turn.num_threads);
-      const auto record = RecordBy(*scanner, study, drawn, frames, turn.is_stopped);
+      auto record = RecordBy(*scanner, study, drawn, frames, turn.is_stopped);
+      if (record) record->certificate = scanner->certificate();
       scanners.Return(std::move(scanner));
       if (!record) return std::nullopt;
       return RecordText(*record);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct StudyChoices {
   std::vector<std::filesystem::path> shards{};  ///< To be merged instead of simulated.
   int num_threads = 0;                          ///< 0 = all cores.
   std::string isa{};                            ///< As MakeSimulator() takes it.
+  std::optional<double> certify{};  ///< Share of the time that certificates may take; or none.
 };
 
 struct StudyHooks {

@@ -1,8 +1,10 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "analysis/analysis_extras.h"
 #include "analysis/commands.h"
@@ -12,6 +14,7 @@
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "core/base/input_file.h"
+#include "core/certify/certifier.h"
 #include "core/extras/recipe/scenario_draw.h"
 #include "core/io/run/dataset_files.h"
 #include "core/program/progress_line.h"
@@ -28,6 +31,8 @@ struct StudyOptions {
   std::vector<std::string> table;
   StudyChoices choices;
   std::string shard;
+  std::string certify = "1%";
+  bool has_certify = false;
   ReportOutput output;
 };
 
@@ -41,6 +46,17 @@ std::string Summary(const StudyResult& result) {
   }
   text << "; " << result.approaches.size() << " of " << result.num_approaches << " are done\n";
   return text.str();
+}
+
+// A study is certified unless the command line says otherwise; one that was begun, also as shards,
+// goes on as it was begun.
+std::optional<double> UsualCertify(const StudyChoices& choices) {
+  std::vector<fs::path> folders = {choices.directory};
+  folders.insert(folders.end(), choices.shards.begin(), choices.shards.end());
+  for (const fs::path& folder : folders) {
+    if (fs::exists(folder / kStudyFile)) return ReadStudyRecord(folder).certify;
+  }
+  return CertifiedShareOf("1%");
 }
 
 int RunStudyCommand(StudyOptions options, const std::string& command_line) {
@@ -59,6 +75,8 @@ int RunStudyCommand(StudyOptions options, const std::string& command_line) {
                             },
                             StopRequested};
   options.choices.directory = options.output.out;
+  options.choices.certify =
+      options.has_certify ? CertifiedShareOf(options.certify) : UsualCertify(options.choices);
   const StudyResult result = RunStudy(study, drawer, options.choices, hooks);
   line.End();
   if (!options.output.is_json) std::cout << Summary(result);
@@ -104,9 +122,15 @@ void AddStudy(ProgramOptions& app, ProgramCommand& command) {
       .AddOption("--shards", options->choices.shards,
                  "Folders of all shards, to report on them as one study")
       .Excludes(shard);
+  study
+      .AddOption("--certify", options->certify,
+                 "Share of the frames' time, such as 1%, for making some firings near the objects "
+                 "anew on rung reference, which tells the numerical error; or off")
+      .ShowDefault();
   AddThreads(study, options->choices.num_threads);
   AddIsa(study, options->choices.isa);
-  study.WhenParsed([&command, options] {
+  study.WhenParsed([&command, options, study] {
+    options->has_certify = study.is_given("--certify");
     if (!options->shard.empty()) options->choices.shard = ParseShard(options->shard).value();
     command = [options](const std::string& line) { return RunStudyCommand(*options, line); };
   });

@@ -39,6 +39,7 @@ void Describe(Archive& a, StudyRecord& s) {
   a.Required("files_xxh3", s.files_hash, "Hash of the files that the recipe names.");
   a.Required("num_scenarios", s.num_scenarios, "Of all shards.");
   a.Required("frames", s.frames, "Of each approach.");
+  a.Optional("certify", s.certify, "Share of the time that certificates may take.");
   a.Optional("shard", s.shard, "Number and count: 2/7.");
   a.Ensure({"shard"}, s.shard.empty() || ParseShard(s.shard), "must be a shard");
 }

@@ -37,7 +37,8 @@ struct StudyRecord {
   std::string files_hash{};  ///< Of the files that the recipe names.
   std::uint32_t num_scenarios{};
   StudyFramesRecord frames{};
-  std::string shard{};  ///< "2/7"; empty for a whole study.
+  std::optional<double> certify{};  ///< Share of the time that certificates may take.
+  std::string shard{};              ///< "2/7"; empty for a whole study.
 };
 void Describe(Archive& a, StudyRecord& s);
 

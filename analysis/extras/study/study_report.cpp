@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "analysis/detectability/detect_report.h"
 #include "analysis/extras/detectors/alarm_report.h"
 #include "analysis/extras/detectors/evaluate_report.h"
 #include "analysis/extras/study/kept_files.h"
+#include "analysis/stats/certificate_section.h"
 #include "core/base/text.h"
 
 namespace railcast {
@@ -161,8 +163,11 @@ Report MakeStudyReport(const StudySpec& study,
   const std::vector<const Factor*> in_table = study.table.empty()
                                                   ? LargestFactors(observations, factors, weights)
                                                   : NamedFactors(study.table, factors);
+  const std::optional<RunCertificate> certificate = CertificateOfStudy(result);
+  if (certificate) AddCertificateHeadlines(*certificate, report);
   report.sections = {VerdictSection(targets),
                      TableSection(observations, in_table),
+                     StudyCertificateSection(certificate),
                      PlacementSection(observations, factors, in_table, recipe),
                      FactorsSection(weights, observations.size()),
                      ConditionsSection(observations, factors, in_table),

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "analysis/extras/study/study_factors.h"
 #include "analysis/extras/study/study_spec.h"
 #include "analysis/report/report.h"
+#include "core/certify/certified_figures.h"
 
 namespace railcast {
 
@@ -40,6 +42,13 @@ struct TargetResult {
 
 /// The answer for each target, and its probability of detection.
 [[nodiscard]] Section VerdictSection(const std::vector<TargetResult>& targets);
+
+/// The numerical error of the echoes of what a study follows, over all approaches and by target;
+/// absent if no frame is certified. Defined in study_certificate.cpp.
+[[nodiscard]] std::optional<RunCertificate> CertificateOfStudy(const StudyResult& result);
+
+/// The section about it; without tables if it is absent.
+[[nodiscard]] Section StudyCertificateSection(const std::optional<RunCertificate>& certificate);
 
 /// Adds the option --table.
 void AddTable(ProgramOptions& command, std::vector<std::string>& factors);
