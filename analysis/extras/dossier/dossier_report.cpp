@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <boost/algorithm/string/replace.hpp>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "analysis/extras/study/study_factors.h"
@@ -10,6 +12,7 @@
 #include "analysis/limits/limit_sections.h"
 #include "analysis/report/program_output.h"
 #include "analysis/report/provenance.h"
+#include "analysis/stats/certificate_section.h"
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
@@ -36,17 +39,20 @@ Report MakeDossier(const FinishedStudy& study,
   const std::vector<const Factor*> in_table = study.spec.table.empty()
                                                   ? LargestFactors(observations, factors, weights)
                                                   : NamedFactors(study.spec.table, factors);
+  const std::optional<RunCertificate> certificate = CertificateOfStudy(study.result);
   Report report{
       .title = study.spec.question.empty() ? "Dossier of a study" : study.spec.question,
       .command = command,
       .headlines = VerdictHeadlines(targets),
       .sections = {VerdictSection(targets), TableSection(observations, in_table),
                    PlacementSection(observations, factors, in_table, study.recipe),
-                   ScopeSection(study, sample), ModelErrorSection(error), SensorSection(sample),
+                   ScopeSection(study, sample), ModelErrorSection(error),
+                   StudyCertificateSection(certificate), SensorSection(sample),
                    LimitsSection(sample, study.spec.detector.has_value()),
                    FactorsSection(weights, observations.size()),
                    ConditionsSection(observations, factors, in_table), YardsticksSection(targets),
                    CredibilitySection(), TraceabilitySection(study), SignaturesSection()}};
+  if (certificate) AddCertificateHeadlines(*certificate, report);
   if (study.spec.detector) {
     report.sections.insert(report.sections.begin() + 2,
                            StudyAlarmsSection(study.spec, study.result.approaches));
@@ -89,6 +95,16 @@ Section CredibilitySection() {
   return section;
 }
 
+namespace {
+
+// As --certify takes it.
+std::string CertifyText(std::optional<double> share) {
+  constexpr double kPlaces = 1e8;  // Of the percent, so that 7% is not 7.000000000000001%.
+  return share ? NumberText(std::round(kPlaces * 100.0 * *share) / kPlaces) + "%" : "off";
+}
+
+}  // namespace
+
 Section TraceabilitySection(const FinishedStudy& study) {
   Table table{.key = "traceability",
               .title = "What the figures depend on",
@@ -120,6 +136,7 @@ Section TraceabilitySection(const FinishedStudy& study) {
                         " to " + NumberText(seeds.max.seed) +
                         "; each line of approaches.jsonl has its own");
   add("To make it again", "railcast-analyze study STUDY.json --out DIR --isa " + identity.isa +
+                              " --certify " + CertifyText(identity.certify) +
                               ", with the study and the recipe of the hashes above (inputs/ has "
                               "copies); approaches.jsonl then has the same bytes");
   return {.key = "traceability", .title = "Traceability", .tables = {std::move(table)}};
