@@ -44,6 +44,20 @@ TEST(WeightedShares, CountAStratumByItsFiringsNotByThoseDrawn) {
   EXPECT_NEAR(shares.Share(missed, std::vector<double>(200, 1.0))->value, 0.05, 1e-12);
 }
 
+// As in a study whose approaches differ in their sensors.
+TEST(WeightedShares, TakeEachDrawnFiringWithTheProbabilityThatItHad) {
+  WeightedShares shares;
+  std::vector<double> missed;
+  for (const bool is_first : {true, false}) {
+    shares.AddFirings(kInner, is_first ? 1000 : 10'000, is_first ? 0.1 : 0.01);
+    for (int i = 0; i < 100; ++i) {
+      shares.AddDrawn(kInner);
+      missed.push_back(is_first ? 1.0 : 0.0);
+    }
+  }
+  EXPECT_NEAR(shares.Share(missed, std::vector<double>(200, 1.0))->value, 1.0 / 11.0, 1e-12);
+}
+
 TEST(WeightedShares, OfNothingAreAbsent) {
   WeightedShares shares;
   shares.AddFirings(kInner, 1000, 0.1);

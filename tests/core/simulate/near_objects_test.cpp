@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/detect/detector/effect_table.h"
 #include "core/simulate/beams_near_objects.h"
 #include "railcast/scenario.h"
 #include "railcast/simulator.h"
@@ -120,6 +121,21 @@ TEST(NearObjectsScan, HoldsTheSameOfObjectsOnEachRung) {
     SCOPED_TRACE(NameOf(rung));
     EXPECT_GT(ExpectSameOnObjects(spec, {0, 40}), 200U);
   }
+}
+
+TEST(FiringsNearObjects, AreMoreWhereAVariantHasWiderBeams) {
+  ScenarioSpec spec = ReadShipped("st_gallen_approach.json");
+  spec.fidelity = Fidelity::kSurface;
+  const auto simulator = MakeSimulator(spec, 1);
+  const std::array<std::size_t, 1> objects{};
+  const auto begun = simulator->Begin(40);
+  const std::vector<bool> narrow = simulator->FiringsNearObjects(*begun, objects);
+  const auto num_narrow = std::ranges::count(narrow, true);
+  ASSERT_GT(num_narrow, 0);
+  simulator->UseVariants({{EffectsInRung(Fidelity::kFootprint)}});
+  const std::vector<bool> wide = simulator->FiringsNearObjects(*begun, objects);
+  EXPECT_GT(std::ranges::count(wide, true), num_narrow);
+  for (std::size_t cell = 0; cell < wide.size(); ++cell) EXPECT_TRUE(wide[cell] || !narrow[cell]);
 }
 
 TEST(NearObjectsScan, HoldsTheSameOfWhoWalksInFogBeforeASensorOfSeveralReturns) {
