@@ -49,6 +49,7 @@ enum class RandomUse : std::uint32_t {
   kMotionDrift = 301,
   kForestDraw = 400,
   kLabelShuffle = 401,
+  kRareDraw = 402,
 };
 
 /// Four independent, uniform 32-bit words that depend on the arguments only.

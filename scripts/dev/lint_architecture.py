@@ -29,7 +29,7 @@ ROOM_ORDERS = {
     "generator/extras/insert": ". plan firings clouds packets run".split(),
     "generator/extras/import": "map fit heights lines network structures .".split(),
     "analysis": "estimate report limits pictures stats inspect compare detectability frontier receive . extras".split(),
-    "analysis/extras": "card detectors sight study preset fit dossier".split(),
+    "analysis/extras": "card detectors sight rare study preset fit dossier".split(),
     "viewer": "color frames overlays composition draw plan session pick picture gui .".split(),
 }
 # The public headers, included by programs that embed railcast. Each header belongs to the folder

@@ -1,0 +1,174 @@
+#include "analysis/extras/rare/rare_event.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string_view>
+
+#include "core/base/text.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kLeastEffective = 100.0;
+constexpr double kMostShare = 0.05;
+constexpr double kMostUnknown = 0.1;
+
+bool HasFailed(double score) {
+  return score < 0.0;
+}
+
+std::vector<double> CheapTerms(const WeightedTrials& trials) {
+  std::vector<double> terms;
+  for (std::size_t i = 0; i < trials.weights.size(); ++i) {
+    terms.push_back(HasFailed(trials.scores[i].cheap) ? trials.weights[i] : 0.0);
+  }
+  return terms;
+}
+
+std::vector<double> CorrectionTerms(const WeightedTrials& pairs) {
+  std::vector<double> terms;
+  for (std::size_t i = 0; i < pairs.weights.size(); ++i) {
+    const double dear = HasFailed(pairs.scores[i].dear) ? pairs.weights[i] : 0.0;
+    const double cheap = HasFailed(pairs.scores[i].cheap) ? pairs.weights[i] : 0.0;
+    terms.push_back(dear - cheap);
+  }
+  return terms;
+}
+
+// The square of the weight that a disagreement between levels would have: that of the trials that
+// failed on either, or of all if none did.
+double SquareOfDisagreement(const WeightedTrials& pairs) {
+  double of_failed = 0.0;
+  double of_all = 0.0;
+  std::uint64_t num_failed = 0;
+  for (std::size_t i = 0; i < pairs.weights.size(); ++i) {
+    const double square = pairs.weights[i] * pairs.weights[i];
+    of_all += square;
+    if (!HasFailed(pairs.scores[i].cheap) && !HasFailed(pairs.scores[i].dear)) continue;
+    of_failed += square;
+    ++num_failed;
+  }
+  return num_failed > 0 ? of_failed / static_cast<double>(num_failed)
+                        : of_all / static_cast<double>(pairs.weights.size());
+}
+
+// @param more_squares Added to the sum of squares.
+RareLevel LevelOf(const std::vector<double>& terms, double more_squares = 0.0) {
+  RareLevel level{.num = terms.size()};
+  if (terms.empty()) return level;
+  const auto num = static_cast<double>(terms.size());
+  double squares = more_squares;
+  for (const double term : terms) {
+    level.mean += term / num;
+    squares += term * term;
+  }
+  level.variance = std::max(squares / num - level.mean * level.mean, 0.0);
+  return level;
+}
+
+Estimate IntervalOf(double mean, double squared_error, double effective, std::uint64_t num) {
+  if (mean <= 0.0) return NotEnough(num);
+  const double relative = std::sqrt(squared_error) / mean;
+  const double factor = std::exp(StudentQuantile(std::max(effective - 1.0, 1.0)) * relative);
+  return {mean, mean / factor, mean * factor, num};
+}
+
+double UnknownShare(const WeightedTrials& trials) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < trials.weights.size(); ++i) {
+    if (std::isnan(trials.scores[i].cheap)) sum += trials.weights[i];
+  }
+  return sum / static_cast<double>(std::max<std::size_t>(trials.weights.size(), 1));
+}
+
+bool HasAnyFailed(const RareEvidence& evidence) {
+  const auto any_of = [](const WeightedTrials& trials) {
+    return std::ranges::any_of(trials.scores, [](const RareScores& scores) {
+      return HasFailed(scores.cheap) || HasFailed(scores.dear);
+    });
+  };
+  return any_of(evidence.cheap[0]) || any_of(evidence.cheap[1]) || any_of(evidence.pairs);
+}
+
+// "P is 0.0012 to 0.0015 by one".
+std::string RangeText(const Estimate& estimate) {
+  if (!estimate.is_enough()) return "0";
+  return NumberText(estimate.low) + " to " + NumberText(estimate.high);
+}
+
+std::string RefusalOf(const RareFigure& figure, double mean, double unknown) {
+  const Estimate& one = figure.by_proposal[0];
+  const Estimate& other = figure.by_proposal[1];
+  if (one.is_enough() != other.is_enough() || one.low > other.high || other.low > one.high) {
+    return "two independent searches disagree (" + RangeText(one) + " and " + RangeText(other) +
+           "): a kind of failure may be missing";
+  }
+  if (figure.effective < kLeastEffective) {
+    return "only " + NumberText(std::round(figure.effective)) + " trials are effective, and " +
+           NumberText(kLeastEffective) + " are needed";
+  }
+  if (figure.largest_share > kMostShare) {
+    return "one trial is " + NumberText(std::round(100.0 * figure.largest_share)) +
+           " % of the sum: the search has missed where it comes from";
+  }
+  if (unknown > kMostUnknown * mean) {
+    return "too many trials say neither yes nor no: a share of " + NumberText(unknown) + " of all";
+  }
+  return mean > 0.0 ? "" : "the levels disagree by more than the probability";
+}
+
+}  // namespace
+
+RareFigure EstimateRareFigure(const RareEvidence& evidence) {
+  RareFigure figure;
+  std::vector<double> all_terms;
+  double squared_error = 0.0;
+  double unknown = 0.0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::vector<double> terms = CheapTerms(evidence.cheap[i]);
+    const RareLevel level = LevelOf(terms);
+    const auto num = static_cast<double>(level.num);
+    figure.by_proposal[i] =
+        IntervalOf(level.mean, level.variance / num, EffectiveOf(terms), level.num);
+    figure.cheap.num += level.num;
+    figure.cheap.mean += 0.5 * level.mean;
+    figure.cheap.variance += 0.5 * level.variance;
+    squared_error += 0.25 * level.variance / num;
+    unknown += 0.5 * UnknownShare(evidence.cheap[i]);
+    for (const double term : terms) all_terms.push_back(0.5 * term / num);
+  }
+  if (!evidence.pairs.weights.empty()) {
+    constexpr double kMoreDisagreements = 2.0;
+    const std::vector<double> terms = CorrectionTerms(evidence.pairs);
+    figure.correction = LevelOf(terms, kMoreDisagreements * SquareOfDisagreement(evidence.pairs));
+    const auto num = static_cast<double>(figure.correction.num);
+    squared_error += figure.correction.variance / num;
+    for (const double term : terms) all_terms.push_back(term / num);
+  }
+  const std::uint64_t num_dearest =
+      evidence.pairs.weights.empty() ? figure.cheap.num : figure.correction.num;
+  if (!HasAnyFailed(evidence)) {
+    figure.at_most = ExactPoissonRate(0, kDefensiveShare * static_cast<double>(num_dearest)).high;
+    figure.refusal = "nothing failed";
+    return figure;
+  }
+  for (double& term : all_terms) term = std::abs(term);
+  figure.largest_share = *std::ranges::max_element(all_terms) /
+                         std::accumulate(all_terms.begin(), all_terms.end(), 0.0);
+  figure.effective = EffectiveOf(all_terms);
+  const double mean = figure.cheap.mean + figure.correction.mean;
+  figure.refusal = RefusalOf(figure, mean, unknown);
+  figure.probability = NotEnough(figure.cheap.num + figure.correction.num);
+  if (figure.is_known()) {
+    figure.probability = IntervalOf(mean, squared_error, figure.effective, figure.probability.num);
+  }
+  return figure;
+}
+
+double PlainTrialsFor(const Estimate& probability) {
+  const double error = 0.5 * (probability.high - probability.low) / NormalQuantile();
+  return probability.value * (1.0 - probability.value) / (error * error);
+}
+
+}  // namespace railcast

@@ -1,0 +1,224 @@
+#include "analysis/extras/rare/rare_event.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace railcast {
+namespace {
+
+constexpr double kEliteShare = 0.1;
+
+/// Where trials that were drawn by one proposal lie among all.
+struct Batch {
+  std::vector<std::uint32_t> indices;
+};
+
+// Unknown results are no failures that a search could go for.
+double SoughtScore(const RareScores& scores) {
+  return std::isnan(scores.cheap) ? std::numeric_limits<double>::infinity() : scores.cheap;
+}
+
+/// One run, whose trials are made by an experiment.
+class RareRunner {
+ public:
+  RareRunner(const std::vector<RareFactor>& factors,
+             const RareSettings& settings,
+             const RareExperiment& experiment)
+      : factors_(factors), settings_(settings), experiment_(experiment) {}
+
+  std::optional<RareRun> Run() {
+    for (Proposal& proposal : proposals_) {
+      if (!Search(proposal)) return std::nullopt;
+    }
+    run_.num_searching = static_cast<std::uint32_t>(run_.trials.size());
+    const std::uint32_t num_pilot = std::max(settings_.num_per_stage / 2, 1U);
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (!Try(proposals_[i], num_pilot, false, cheap_[i])) return std::nullopt;
+    }
+    if (settings_.has_pairs) {
+      pair_proposal_ = FitProposal(factors_, NearTheEdge(), FitSeed());
+      if (!Try(pair_proposal_, num_pilot, true, pairs_)) return std::nullopt;
+    }
+    run_.figure = EstimateRareFigure(Evidence());
+    while (const auto more = MoreTrials()) {
+      for (std::size_t i = 0; i < 2; ++i) {
+        if (!Try(proposals_[i], more->num_cheap / 2, false, cheap_[i])) return std::nullopt;
+      }
+      if (!Try(pair_proposal_, more->num_pairs, true, pairs_)) return std::nullopt;
+      run_.figure = EstimateRareFigure(Evidence());
+    }
+    return std::move(run_);
+  }
+
+ private:
+  struct Numbers {
+    std::uint32_t num_cheap{};
+    std::uint32_t num_pairs{};
+  };
+
+  // Of a fit that follows the trials that there are.
+  [[nodiscard]] std::uint64_t FitSeed() const { return settings_.seed + run_.trials.size(); }
+
+  // Moves a proposal to the failures. Returns false if it was stopped.
+  bool Search(Proposal& proposal) {
+    constexpr std::size_t kMostStages = 12;
+    constexpr double kEnoughFailures = 80.0;  // To tell modes apart.
+    proposal = {.factors = factors_};
+    std::vector<Proposal> stages;
+    Batch all;
+    while (stages.size() < kMostStages) {
+      Batch batch;
+      if (!Try(proposal, settings_.num_per_stage, false, batch)) return false;
+      all.indices.insert(all.indices.end(), batch.indices.begin(), batch.indices.end());
+      stages.push_back(proposal);
+      const double threshold = ThresholdOf(batch);
+      if (std::isinf(threshold)) return true;  // Next to nothing can fail.
+      Batch elite;
+      std::ranges::copy_if(all.indices, std::back_inserter(elite.indices),
+                           [&](std::uint32_t index) {
+                             const double score = SoughtScore(run_.scores[index]);
+                             return threshold < 0.0 ? score < 0.0 : score <= threshold;
+                           });
+      WeightedPoints points = PointsOf(elite);
+      for (std::size_t i = 0; i < points.points.size(); ++i) {
+        points.weights[i] = WeightOfAll(stages, points.points[i]);
+      }
+      proposal = FitProposal(factors_, points, FitSeed());
+      if (threshold < 0.0 && EffectiveOf(points.weights) >= kEnoughFailures) return true;
+    }
+    return true;
+  }
+
+  // The score that a tenth of the trials are below.
+  [[nodiscard]] double ThresholdOf(const Batch& batch) const {
+    std::vector<double> scores;
+    for (const std::uint32_t index : batch.indices) {
+      scores.push_back(SoughtScore(run_.scores[index]));
+    }
+    const auto place = scores.begin() + static_cast<std::ptrdiff_t>(
+                                            kEliteShare * static_cast<double>(scores.size()));
+    std::nth_element(scores.begin(), place, scores.end());
+    return *place;
+  }
+
+  // Of a point that any of several proposals may have drawn, as often each (the balance heuristic;
+  // Veach and Guibas 1995).
+  static double WeightOfAll(const std::vector<Proposal>& proposals, const RarePoint& point) {
+    double sum = 0.0;
+    for (const Proposal& proposal : proposals) sum += 1.0 / WeightOf(proposal, point);
+    return static_cast<double>(proposals.size()) / sum;
+  }
+
+  // The failures of the pilot, and so many others with the lowest scores as are as probable.
+  [[nodiscard]] WeightedPoints NearTheEdge() const {
+    Batch near;
+    for (const Batch& batch : cheap_) {
+      near.indices.insert(near.indices.end(), batch.indices.begin(), batch.indices.end());
+    }
+    const auto score_of = [&](std::uint32_t index) { return SoughtScore(run_.scores[index]); };
+    std::ranges::stable_sort(near.indices, {}, score_of);
+    double failed = 0.0;
+    double sum = 0.0;
+    std::size_t num = 0;
+    while (num < near.indices.size() && (score_of(near.indices[num]) < 0.0 || sum < 2.0 * failed)) {
+      const std::uint32_t index = near.indices[num++];
+      sum += run_.trials[index].weight;
+      if (score_of(index) < 0.0) failed = sum;
+    }
+    near.indices.resize(num);
+    return PointsOf(near);
+  }
+
+  [[nodiscard]] WeightedPoints PointsOf(const Batch& batch) const {
+    WeightedPoints points;
+    for (const std::uint32_t index : batch.indices) {
+      points.points.push_back(run_.trials[index].point);
+      points.weights.push_back(run_.trials[index].weight);
+    }
+    return points;
+  }
+
+  [[nodiscard]] WeightedTrials TrialsOf(const Batch& batch) const {
+    WeightedTrials trials;
+    for (const std::uint32_t index : batch.indices) {
+      trials.weights.push_back(run_.trials[index].weight);
+      trials.scores.push_back(run_.scores[index]);
+    }
+    return trials;
+  }
+
+  [[nodiscard]] RareEvidence Evidence() const {
+    return {{TrialsOf(cheap_[0]), TrialsOf(cheap_[1])}, TrialsOf(pairs_)};
+  }
+
+  // How many more are needed; nothing if there are enough, or if more would not help.
+  [[nodiscard]] std::optional<Numbers> MoreTrials() const {
+    constexpr double kWantedEffective = 120.0;
+    constexpr double kMostGrowth = 4.0;  // A pilot may err.
+    constexpr double kEnough = 1.0 / 1.05;
+    const RareFigure& figure = run_.figure;
+    const double mean = figure.cheap.mean + figure.correction.mean;
+    const auto num_trials = static_cast<std::uint32_t>(run_.trials.size());
+    if (figure.cheap.mean <= 0.0 || mean <= 0.0 || num_trials >= settings_.most_trials) {
+      return std::nullopt;
+    }
+    const double error = settings_.precision * mean / NormalQuantile();
+    const double pair_cost = settings_.has_pairs ? settings_.pair_cost : 0.0;
+    const double sum =
+        std::sqrt(figure.cheap.variance) + std::sqrt(figure.correction.variance * pair_cost);
+    const auto more_of = [&](const RareLevel& level, double cost) {
+      const auto num = static_cast<double>(level.num);
+      double wanted = std::sqrt(level.variance / std::max(cost, 1.0)) * sum / (error * error);
+      wanted = std::max(wanted, num * kWantedEffective / std::max(figure.effective, 1.0));
+      if (kEnough * wanted <= num) return 0U;
+      const double most = std::min((kMostGrowth - 1.0) * num,
+                                   static_cast<double>(settings_.most_trials - num_trials));
+      return static_cast<std::uint32_t>(std::ceil(std::clamp(wanted - num, 0.0, most)));
+    };
+    Numbers more{more_of(figure.cheap, 1.0), 0};
+    more.num_cheap += more.num_cheap % 2;
+    if (settings_.has_pairs) more.num_pairs = more_of(figure.correction, pair_cost);
+    if (more.num_cheap + more.num_pairs == 0) return std::nullopt;
+    return more;
+  }
+
+  // Draws and tries points. Returns false if it was stopped.
+  bool Try(const Proposal& proposal, std::uint32_t num, bool is_pair, Batch& batch) {
+    std::vector<RareTrial> trials;
+    for (std::uint32_t i = 0; i < num; ++i) {
+      const auto index = static_cast<std::uint32_t>(run_.trials.size()) + i;
+      RareTrial trial{.index = index, .point = DrawPoint(proposal, settings_.seed, index)};
+      trial.weight = WeightOf(proposal, trial.point);
+      trial.is_pair = is_pair;
+      trials.push_back(std::move(trial));
+      batch.indices.push_back(index);
+    }
+    const auto scores = experiment_(trials);
+    if (!scores) return false;
+    run_.scores.insert(run_.scores.end(), scores->begin(), scores->end());
+    std::ranges::move(trials, std::back_inserter(run_.trials));
+    return true;
+  }
+
+  const std::vector<RareFactor>& factors_;
+  const RareSettings& settings_;
+  const RareExperiment& experiment_;
+  std::array<Proposal, 2> proposals_;
+  Proposal pair_proposal_;
+  std::array<Batch, 2> cheap_;
+  Batch pairs_;
+  RareRun run_;
+};
+
+}  // namespace
+
+std::optional<RareRun> RunRareEvent(const std::vector<RareFactor>& factors,
+                                    const RareSettings& settings,
+                                    const RareExperiment& experiment) {
+  return RareRunner(factors, settings, experiment).Run();
+}
+
+}  // namespace railcast

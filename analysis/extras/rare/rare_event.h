@@ -1,0 +1,112 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/estimate/estimate.h"
+#include "analysis/extras/rare/proposal.h"
+
+namespace railcast {
+
+/// What became of a trial: negative if it failed, the more so the worse; NaN if that is not known.
+struct RareScores {
+  double cheap = std::numeric_limits<double>::quiet_NaN();
+  double dear = std::numeric_limits<double>::quiet_NaN();  ///< Of pairs only.
+};
+
+/// Trials that were drawn by one proposal.
+struct WeightedTrials {
+  std::vector<double> weights{};  ///< p / q.
+  std::vector<RareScores> scores{};
+};
+
+/// The mean over independent trials.
+struct RareLevel {
+  std::uint64_t num{};
+  double mean{};
+  double variance{};  ///< Of one trial.
+};
+
+/// All that a figure rests on.
+struct RareEvidence {
+  std::array<WeightedTrials, 2> cheap{};  ///< By two proposals that were found independently.
+  WeightedTrials pairs{};                 ///< Tried on both levels; empty with one level only.
+};
+
+/// The probability of failure.
+struct RareFigure {
+  Estimate probability{};  ///< Not enough where it is refused.
+  std::string refusal{};   ///< Why there is no figure; empty if there is one.
+  /// Upper 95 % bound where nothing failed, by the trials that p had drawn; else NaN.
+  double at_most = std::numeric_limits<double>::quiet_NaN();
+  double effective{};                     ///< Number of equal weights with as much error.
+  double largest_share{};                 ///< Of one trial in the sum of all weights that count.
+  std::array<Estimate, 2> by_proposal{};  ///< On the cheap level.
+  RareLevel cheap{};
+  RareLevel correction{};  ///< Dear minus cheap.
+
+  [[nodiscard]] bool is_known() const { return refusal.empty(); }
+};
+
+/// Estimates the probability of failure on the dear level, mean(w 1(cheap fails)) over the cheap
+/// trials plus mean(w (1(dear fails) - 1(cheap fails))) over the pairs (two levels; Giles 2015,
+/// Acta Numerica 24), with the interval of the variances of both means, Student's in the logarithm.
+/// That of the correction counts two disagreements more than were seen, so that it is not 0 where
+/// none was (rule of three).
+///
+/// There is no figure if nothing failed, if the intervals of the two proposals do not overlap, if
+/// fewer than 100 weights are effective, if one is more than 5 % of their sum, or if trials whose
+/// result is not known weigh more than a tenth of those that failed.
+[[nodiscard]] RareFigure EstimateRareFigure(const RareEvidence& evidence);
+
+/// Number of plain trials whose interval is as wide as that of a figure.
+[[nodiscard]] double PlainTrialsFor(const Estimate& probability);
+
+/// One trial of an experiment.
+struct RareTrial {
+  std::uint32_t index{};  ///< Its number, from which all follows that is random beside the point.
+  RarePoint point{};
+  double weight{};  ///< p / q.
+  bool is_pair{};   ///< Whether it is tried on both levels.
+};
+
+/// Tries all of a list, and returns their scores in that order; nothing if it was stopped.
+using RareExperiment =
+    std::function<std::optional<std::vector<RareScores>>(const std::vector<RareTrial>& trials)>;
+
+struct RareSettings {
+  std::uint64_t seed{};
+  std::uint32_t num_per_stage = 300;   ///< Trials of each stage of a search.
+  double precision = 0.3;              ///< Half the interval, as a share of the probability.
+  std::uint32_t most_trials = 20'000;  ///< After which no more are added.
+  bool has_pairs{};                    ///< Whether there is a dear level.
+  double pair_cost = 3.0;              ///< Of a pair, in trials on the cheap level.
+};
+
+/// What a run has found, and all of its trials.
+struct RareRun {
+  RareFigure figure;
+  std::vector<RareTrial> trials{};
+  std::vector<RareScores> scores{};
+  std::uint32_t num_searching{};  ///< Of the trials, the first ones, which looked for the failures.
+};
+
+/// Estimates a small probability of failure by importance sampling over the factors.
+///
+/// Two searches, independent of each other, move a proposal to the failures on the cheap level in
+/// stages: each fits it to the tenth of the trials with the lowest scores, until that tenth fails
+/// (cross-entropy; Rubinstein and Kroese 2004). Trials by both proposals, and pairs by a third one
+/// that has been fitted to trials with scores near 0, give the figure. Their numbers go by
+/// sqrt(variance / cost) of a pilot (Giles 2015), until the interval has the width asked for. The
+/// result is a function of the arguments and scores alone.
+/// @return Nothing if the experiment was stopped.
+[[nodiscard]] std::optional<RareRun> RunRareEvent(const std::vector<RareFactor>& factors,
+                                                  const RareSettings& settings,
+                                                  const RareExperiment& experiment);
+
+}  // namespace railcast

@@ -1,0 +1,177 @@
+#include "analysis/extras/rare/rare_event.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace railcast {
+namespace {
+
+constexpr std::uint32_t kNumEstimates = 200;
+
+double NormalTail(double z) {
+  return 0.5 * std::erfc(z / std::numbers::sqrt2);
+}
+
+// Ten normal numbers fail if the sum of the first five, or that of the others, is too great: two
+// modes far apart. Both sums are normal with the variance 5.
+constexpr double kThreshold = 3.891;  // 1 - (1 - 5.0e-5)^2 = 1.0e-4.
+double ToyScore(const RarePoint& point) {
+  double first = 0.0;
+  double second = 0.0;
+  for (std::size_t i = 0; i < 5; ++i) {
+    first += point[i];
+    second += point[5 + i];
+  }
+  return kThreshold - std::max(first, second) / std::sqrt(5.0);
+}
+double ToyProbability() {
+  const double passes = 1.0 - NormalTail(kThreshold);
+  return 1.0 - passes * passes;
+}
+
+// The cheap level fails at other points, a tenth of a standard deviation off.
+double CheapToyScore(const RarePoint& point) {
+  return ToyScore(point) + 0.1 * std::sin(10.0 * point[0]);
+}
+
+RareExperiment ToyExperiment() {
+  return [](const std::vector<RareTrial>& trials) {
+    std::vector<RareScores> scores;
+    for (const RareTrial& trial : trials) {
+      scores.push_back({CheapToyScore(trial.point)});
+      if (trial.is_pair) scores.back().dear = ToyScore(trial.point);
+    }
+    return std::optional(scores);
+  };
+}
+
+/// What came of many estimates with different seeds.
+struct Coverage {
+  std::uint32_t num_known = 0;
+  std::uint32_t num_covering = 0;
+  double mean = 0.0;
+};
+
+Coverage CoverageOf(const std::vector<RareFactor>& factors,
+                    RareSettings settings,
+                    const RareExperiment& experiment,
+                    double probability) {
+  Coverage coverage;
+  for (std::uint32_t i = 0; i < kNumEstimates; ++i) {
+    settings.seed = 1000 + i * 1'000'003ULL;
+    const RareFigure figure = RunRareEvent(factors, settings, experiment)->figure;
+    if (!figure.is_known()) continue;
+    ++coverage.num_known;
+    coverage.mean += figure.probability.value;
+    const bool covers =
+        figure.probability.low <= probability && probability <= figure.probability.high;
+    coverage.num_covering += covers ? 1U : 0U;
+  }
+  coverage.mean /= coverage.num_known;
+  return coverage;
+}
+
+TEST(RareEvent, CoversAProbabilityOfTwoModesInTenDimensions) {
+  const double probability = ToyProbability();
+  EXPECT_NEAR(probability, 1e-4, 1e-6);
+  const Coverage coverage =
+      CoverageOf(std::vector<RareFactor>(10), {.num_per_stage = 600, .has_pairs = true},
+                 ToyExperiment(), probability);
+  EXPECT_GE(coverage.num_known, 9 * kNumEstimates / 10);
+  EXPECT_GE(coverage.num_covering, 0.93 * coverage.num_known);
+  // The mean of so many has an error of about 1 %.
+  EXPECT_NEAR(coverage.mean, probability, 0.04 * probability);
+}
+
+// A box on a plane in fog: the power that comes back falls as exp(-2 a r) / r^2, so that the box is
+// seen in time where the visibility exceeds a threshold, which depends on its reflectance. The fog
+// counts only where the weather is fog.
+constexpr double kNeeded_m = 60.0;
+constexpr double kLeastVisibility_m = 40.0;
+constexpr double kMostVisibility_m = 4000.0;
+double VisibilityOf(double quantile) {
+  return kLeastVisibility_m * std::pow(kMostVisibility_m / kLeastVisibility_m, quantile);
+}
+double QuantileOf(double score) {
+  return 1.0 - NormalTail(score);
+}
+// ln of the received power over the threshold of detection, at the needed distance.
+double FogScore(const RarePoint& point) {
+  const bool is_fog = point[0] == 1.0;
+  const double extinction_per_m =
+      is_fog ? 3.0 / VisibilityOf(QuantileOf(point[1])) : 0.0;  // Koschmieder.
+  const double reflectance = 0.02 + 0.6 * QuantileOf(point[2]);
+  return std::log(reflectance / 0.02) - 2.0 * extinction_per_m * kNeeded_m + 6.0;
+}
+double FogProbability() {
+  constexpr int kNumSteps = 100'000;
+  double sum = 0.0;
+  for (int i = 0; i < kNumSteps; ++i) {
+    const double log_reflectance = std::log(1.0 + 30.0 * (i + 0.5) / kNumSteps);
+    const double visibility_m = 6.0 * kNeeded_m / (6.0 + log_reflectance);
+    sum += std::clamp(std::log(visibility_m / kLeastVisibility_m) /
+                          std::log(kMostVisibility_m / kLeastVisibility_m),
+                      0.0, 1.0);
+  }
+  return 0.1 * sum / kNumSteps;
+}
+
+TEST(RareEvent, CoversTheProbabilityOfABoxInFog) {
+  const std::vector<RareFactor> factors = {
+      {.probabilities = {0.9, 0.1}}, {.only_with = RareFactor::Condition{0, 1}}, {}};
+  const RareExperiment experiment = [](const std::vector<RareTrial>& trials) {
+    std::vector<RareScores> scores;
+    for (const RareTrial& trial : trials) scores.push_back({FogScore(trial.point)});
+    return std::optional(scores);
+  };
+  const Coverage coverage =
+      CoverageOf(factors, {.num_per_stage = 200}, experiment, FogProbability());
+  EXPECT_GE(coverage.num_known, 9 * kNumEstimates / 10);
+  EXPECT_GE(coverage.num_covering, 0.93 * coverage.num_known);
+}
+
+TEST(RareEvent, RefusesWhereTheCheapLevelIsBlind) {
+  // What fails on the dear level has nothing to do with what the cheap one sees.
+  // Its probability is 0.02.
+  const RareExperiment experiment = [](const std::vector<RareTrial>& trials) {
+    std::vector<RareScores> scores;
+    for (const RareTrial& trial : trials) {
+      scores.push_back({ToyScore(trial.point)});
+      if (trial.is_pair) scores.back().dear = trial.point[9] < -2.054 ? -1.0 : 1.0;
+    }
+    return std::optional(scores);
+  };
+  for (std::uint64_t seed = 1; seed < 6; ++seed) {
+    const auto run = RunRareEvent(std::vector<RareFactor>(10),
+                                  {.seed = seed * 1'000'003, .has_pairs = true}, experiment);
+    const Estimate& probability = run->figure.probability;
+    EXPECT_TRUE(!run->figure.is_known() || (probability.low < 0.02 && probability.high > 0.02))
+        << probability.low << " " << probability.high;
+  }
+}
+
+TEST(RareEvent, BoundsWhatNeverFailed) {
+  const RareExperiment experiment = [](const std::vector<RareTrial>& trials) {
+    return std::optional(std::vector<RareScores>(trials.size(), RareScores{1.0}));
+  };
+  const auto run = RunRareEvent(std::vector<RareFactor>(2), {.num_per_stage = 200}, experiment);
+  EXPECT_EQ(run->figure.refusal, "nothing failed");
+  // Of the 200 trials that count, p has drawn a tenth; the exact two-sided bound of none is 3.69.
+  EXPECT_NEAR(run->figure.at_most, 3.689 / 20.0, 1e-3);
+}
+
+TEST(RareEvent, EndsWhereTheExperimentIsStopped) {
+  int num_batches = 0;
+  const RareExperiment toy = ToyExperiment();
+  const RareExperiment experiment = [&](const std::vector<RareTrial>& trials) {
+    return ++num_batches < 3 ? toy(trials) : std::nullopt;
+  };
+  EXPECT_FALSE(RunRareEvent(std::vector<RareFactor>(10), {}, experiment));
+  EXPECT_EQ(num_batches, 3);
+}
+
+}  // namespace
+}  // namespace railcast
