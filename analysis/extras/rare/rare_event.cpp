@@ -187,6 +187,7 @@ class RareRunner {
 
   // Draws and tries points. Returns false if it was stopped.
   bool Try(const Proposal& proposal, std::uint32_t num, bool is_pair, Batch& batch) {
+    if (num == 0) return true;
     std::vector<RareTrial> trials;
     for (std::uint32_t i = 0; i < num; ++i) {
       const auto index = static_cast<std::uint32_t>(run_.trials.size()) + i;

@@ -69,6 +69,20 @@ ApproachRecord RecordOf(const DrawnScenario& drawn,
   return record;
 }
 
+double LeastSpareOf(const ApproachRecord& approach) {
+  constexpr double kWithoutObject_m = 1e6;
+  double least_m = kWithoutObject_m;
+  bool is_known = true;
+  for (const StudiedObject& object : approach.objects) {
+    if (object.is_undecided()) {
+      is_known = false;
+    } else {
+      least_m = std::min(least_m, object.spare_m());
+    }
+  }
+  return is_known || least_m < 0.0 ? least_m : std::numeric_limits<double>::quiet_NaN();
+}
+
 ApproachAlarms AlarmsOf(const EvaluatedRun& run) {
   return {.driven_m = run.driven_m, .beside = run.ObjectsBeside(), .alarms = run.alarms};
 }
@@ -131,6 +145,7 @@ void Describe(Archive& a, ApproachRecord& s) {
   a.Required("base", s.base, "Name of its file.");
   a.Required("drawn", s.drawn, "Values by their names or JSON pointers.");
   a.Required("objects", s.objects, "Those in the way that are approached.");
+  a.Optional("cheap_spare_m", s.cheap_spare_m, "On the cheaper rung, where both were made.");
   std::optional<double> driven_m;
   std::optional<std::vector<std::string>> beside;
   std::optional<std::vector<FalseAlarm>> alarms;

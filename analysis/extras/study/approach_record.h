@@ -80,7 +80,13 @@ struct ApproachRecord {
   std::vector<StudiedObject> objects{};    ///< Those in the way that are approached.
   std::optional<ApproachAlarms> alarms{};  ///< Of studies with a detector.
   std::optional<ApproachCertificate> certificate{};
+  /// Of an approach that was also made on a cheaper rung, LeastSpareOf() there.
+  std::optional<double> cheap_spare_m{};
 };
+
+/// The least that any object in the way leaves to spare, in metres; a million without one, NaN
+/// where none is too late and an approach began too near to tell.
+[[nodiscard]] double LeastSpareOf(const ApproachRecord& approach);
 
 /// A line of approaches.jsonl.
 void Describe(Archive& a, ApproachRecord& s);

@@ -24,6 +24,10 @@ void CheckIsWhole(const fs::path& directory, const StudyRecord& identity) {
                      "it (got " +
                      Quoted(identity.version) + ")");
   }
+  if (!identity.rare.empty()) {
+    throw InputError(place + ": /rare: must be absent: its approaches are not those of the recipe" +
+                     " (got " + Quoted(identity.rare) + ")");
+  }
   if (identity.shard.empty()) return;
   throw InputError(place +
                    ": /shard: must be absent: railcast-analyze study --shards joins shards "

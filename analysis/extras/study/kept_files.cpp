@@ -22,11 +22,11 @@ namespace railcast {
 namespace {
 
 // Returns the names of its files.
-std::set<std::string> KeepScenario(const ScenarioDrawer& drawer,
+std::set<std::string> KeepScenario(const DrawByNumber& draw,
                                    std::uint32_t number,
                                    const std::string& folder,
                                    const std::filesystem::path& directory) {
-  const ScenarioIdentity identity = IdentityOf(drawer.Draw(number).scenario);
+  const ScenarioIdentity identity = IdentityOf(draw(number).scenario);
   WriteScenarioFiles(identity, directory / folder, std::string(kScenarioFile));
   std::set<std::string> names = {folder + "/" + std::string(kScenarioFile)};
   for (const InputFile& input : identity.inputs) names.insert(folder + "/" + input.CopyName());
@@ -61,7 +61,7 @@ std::vector<std::uint32_t> SampleOf(const std::vector<Observation>& observations
 }
 
 void KeepFiles(const StudySpec& study,
-               const ScenarioDrawer& drawer,
+               const DrawByNumber& draw,
                const std::vector<Observation>& worst,
                const std::vector<std::uint32_t>& sample,
                const std::filesystem::path& directory) {
@@ -69,10 +69,10 @@ void KeepFiles(const StudySpec& study,
   for (const Observation& each : worst) of_worst.insert(each.approach->scenario);
   std::set<std::string> names;
   for (const std::uint32_t number : of_worst) {
-    names.merge(KeepScenario(drawer, number, KeptFolder(kWorstFolder, number), directory));
+    names.merge(KeepScenario(draw, number, KeptFolder(kWorstFolder, number), directory));
   }
   for (const std::uint32_t number : sample) {
-    names.merge(KeepScenario(drawer, number, KeptFolder(kSampleFolder, number), directory));
+    names.merge(KeepScenario(draw, number, KeptFolder(kSampleFolder, number), directory));
   }
   Json asked = Json::parse(ReadFileWhole(study.file));
   asked["recipe"] = std::filesystem::path(kAskedRecipeFile).filename().string();

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,11 +29,14 @@ inline constexpr std::string_view kAskedRecipeFile = "inputs/recipe.json";
 /// Numbers of at most 16 scenarios with observations, spread evenly over them.
 [[nodiscard]] std::vector<std::uint32_t> SampleOf(const std::vector<Observation>& observations);
 
+/// Draws the scenario of an approach.
+using DrawByNumber = std::function<DrawnScenario(std::uint32_t number)>;
+
 /// Writes the scenarios of the worst and those of the sample, the study and its recipe, and
 /// manifest.json with the hashes of these and of the study's own files.
 /// @throws InputError if a file cannot be written.
 void KeepFiles(const StudySpec& study,
-               const ScenarioDrawer& drawer,
+               const DrawByNumber& draw,
                const std::vector<Observation>& worst,
                const std::vector<std::uint32_t>& sample,
                const std::filesystem::path& directory);

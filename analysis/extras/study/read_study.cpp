@@ -39,6 +39,16 @@ void Describe(Archive& a, TrainGauge& s) {
   a.Required("height_m", s.height_m, "Over top of rail.", Within(0.1, 10));
 }
 
+void Describe(Archive& a, RareSpec& s) {
+  a.Optional("cheap", s.cheap, "The rung of most approaches.",
+             OneOf({"geometry", "plausibility", "surface", "footprint"}));
+  a.Optional("per_stage", s.per_stage, "Approaches of each stage of the search.", Within(100, 1e5));
+  a.Optional("precision", s.precision, "Half the interval, as a share of the probability.",
+             Within(0.05, 1));
+  a.Optional("most_approaches", s.most_approaches, "After which no more are added.",
+             Within(1000, 1e7));
+}
+
 void Describe(Archive& a, StudySpec& s) {
   a.Optional("question", s.question, "What the study is to answer.");
   a.Required("recipe", s.recipe, "What scenarios are drawn from.", ExistingFile());
@@ -50,6 +60,7 @@ void Describe(Archive& a, StudySpec& s) {
   a.Optional("detection", s.detect.rule, "When an object counts as detected.");
   a.Optional("detector", s.detector, "Finds the objects, in whole frames.");
   a.Optional("gauge", s.gauge, "Of the train, instead of the vehicle's outline.");
+  a.Optional("rare", s.rare, "Seeks the probability of rare failures.");
   a.Optional("braking", s.detect.braking, "How the train stops.");
   std::optional<double> speed_kmph;
   a.Optional("speed_kmph", speed_kmph, "To brake from; absent = the vehicle's own.",

@@ -30,13 +30,20 @@
 namespace railcast {
 namespace {
 
+int NumThreadsOf(const StudyChoices& choices) {
+  return choices.num_threads > 0 ? choices.num_threads : tbb::info::default_concurrency();
+}
+
 /// Scanners that wait for their next approach. Each keeps a scene, so that whoever needs one gets
 /// that of the same scene, if it can be had.
 class ScannerPool {
  public:
   /// @param study Must outlive the pool.
-  ScannerPool(const StudySpec& study, const StudyChoices& choices, std::size_t num_most)
-      : study_(study), isa_(choices.isa), certify_(choices.certify), num_most_(num_most) {}
+  ScannerPool(const StudySpec& study, const StudyChoices& choices)
+      : study_(study),
+        isa_(choices.isa),
+        certify_(choices.certify),
+        num_most_(static_cast<std::size_t>(NumThreadsOf(choices)) + kMostIdle) {}
 
   [[nodiscard]] std::unique_ptr<ApproachScanner> Take(const ScenarioSpec& scenario,
                                                       int num_threads) {
@@ -69,6 +76,8 @@ class ScannerPool {
 
  private:
   using Idle = std::list<std::unique_ptr<ApproachScanner>>;
+  // Beside those at work, some that keep the scenes of other sensors.
+  static constexpr std::size_t kMostIdle = 4;
 
   std::unique_ptr<ApproachScanner> TakeFrom(Idle::iterator idle) {
     std::unique_ptr<ApproachScanner> taken = std::move(*idle);
@@ -84,25 +93,6 @@ class ScannerPool {
   Idle idle_;
   std::size_t num_made_ = 0;
 };
-
-StudyRecord IdentityOfStudy(const StudySpec& study,
-                            const Recipe& recipe,
-                            const RecipeBases& bases,
-                            const StudyChoices& choices) {
-  StudyRecord identity{.version = ProgramVersion(),
-                       .embree = EmbreeVersion(),
-                       .isa = AtPlace("--", [&] { return IsaInUse(choices.isa); }),
-                       .study_hash = ContentHash(ReadFileWhole(study.file)),
-                       .recipe_hash = ContentHash(ReadFileWhole(recipe.file)),
-                       .files_hash = HashOfRecipeFiles(recipe),
-                       .num_scenarios = recipe.num_scenarios,
-                       .frames = {recipe.warm_up_frames, recipe.stride, recipe.num_frames},
-                       .certify = choices.certify};
-  for (std::size_t i = 0; i < recipe.bases.size(); ++i) {
-    identity.base_hashes.push_back(bases.hash(i));
-  }
-  return identity;
-}
 
 std::vector<std::uint32_t> FramesOf(const Recipe& recipe) {
   std::vector<std::uint32_t> frames;
@@ -166,7 +156,49 @@ std::optional<ApproachRecord> RecordBy(ApproachScanner& scanner,
   return record;
 }
 
+ApproachMaker MakerBy(const StudySpec& study,
+                      const Recipe& recipe,
+                      std::shared_ptr<ScannerPool> scanners) {
+  return [&study, &recipe, frames = FramesOf(recipe), scanners = std::move(scanners)](
+             const DrawnScenario& drawn, int num_threads, const std::function<bool()>& is_stopped) {
+    return AtPlace(PlaceOfScenario(recipe, drawn.record.scenario), [&] {
+      CheckIsStudied(drawn.scenario);
+      auto scanner = scanners->Take(drawn.scenario, num_threads);
+      auto record = RecordBy(*scanner, study, drawn, frames, is_stopped);
+      if (record) record->certificate = scanner->certificate();
+      scanners->Return(std::move(scanner));
+      return record;
+    });
+  };
+}
+
 }  // namespace
+
+ApproachMaker MakerOfApproaches(const StudySpec& study,
+                                const Recipe& recipe,
+                                const StudyChoices& choices) {
+  return MakerBy(study, recipe, std::make_shared<ScannerPool>(study, choices));
+}
+
+StudyRecord IdentityOfStudy(const StudySpec& study,
+                            const ScenarioDrawer& drawer,
+                            const StudyChoices& choices) {
+  const Recipe& recipe = drawer.recipe();
+  CheckAreThere(study, drawer);
+  StudyRecord identity{.version = ProgramVersion(),
+                       .embree = EmbreeVersion(),
+                       .isa = AtPlace("--", [&] { return IsaInUse(choices.isa); }),
+                       .study_hash = ContentHash(ReadFileWhole(study.file)),
+                       .recipe_hash = ContentHash(ReadFileWhole(recipe.file)),
+                       .files_hash = HashOfRecipeFiles(recipe),
+                       .num_scenarios = recipe.num_scenarios,
+                       .frames = {recipe.warm_up_frames, recipe.stride, recipe.num_frames},
+                       .certify = choices.certify};
+  for (std::size_t i = 0; i < recipe.bases.size(); ++i) {
+    identity.base_hashes.push_back(drawer.bases().hash(i));
+  }
+  return identity;
+}
 
 Recipe ReadStudyRecipe(const StudySpec& study) {
   return ReadRecipe(
@@ -177,37 +209,25 @@ StudyResult RunStudy(const StudySpec& study,
                      const ScenarioDrawer& drawer,
                      const StudyChoices& choices,
                      const StudyHooks& hooks) {
-  // Beside those at work, some that keep the scenes of other sensors.
-  constexpr std::size_t kMostIdle = 4;
   const auto begin = std::chrono::steady_clock::now();
   const Recipe& recipe = drawer.recipe();
-  CheckAreThere(study, drawer);
   StudyResult result;
-  result.identity = IdentityOfStudy(study, recipe, drawer.bases(), choices);
+  result.identity = IdentityOfStudy(study, drawer, choices);
   StudyDirectory directory(choices.directory, result.identity, choices.shard);
   result.num_approaches = choices.shard.NumOf(recipe.num_scenarios);
   if (!choices.shards.empty()) {
     MergeStudies(choices.shards, result.identity, directory);
   }
-  const std::vector<std::uint32_t> frames = FramesOf(recipe);
-  const int num_threads =
-      choices.num_threads > 0 ? choices.num_threads : tbb::info::default_concurrency();
-  ScannerPool scanners(study, choices, static_cast<std::size_t>(num_threads) + kMostIdle);
+  const auto scanners = std::make_shared<ScannerPool>(study, choices);
+  const ApproachMaker make_approach = MakerBy(study, recipe, scanners);
   const std::uint32_t num_before = directory.num_done();
   const auto make = [&](const ScenarioTurn& turn) -> std::optional<std::string> {
-    const std::uint32_t number = choices.shard.ScenarioAt(num_before + turn.index);
-    const DrawnScenario drawn = drawer.Draw(number);
-    return AtPlace(PlaceOfScenario(recipe, number), [&]() -> std::optional<std::string> {
-      CheckIsStudied(drawn.scenario);
-      auto scanner = scanners.Take(drawn.scenario, turn.num_threads);
-      auto record = RecordBy(*scanner, study, drawn, frames, turn.is_stopped);
-      if (record) record->certificate = scanner->certificate();
-      scanners.Return(std::move(scanner));
-      if (!record) return std::nullopt;
-      return RecordText(*record);
-    });
+    const DrawnScenario drawn = drawer.Draw(choices.shard.ScenarioAt(num_before + turn.index));
+    const auto record = make_approach(drawn, turn.num_threads, turn.is_stopped);
+    if (!record) return std::nullopt;
+    return RecordText(*record);
   };
-  TakeTurns(result.num_approaches - num_before, num_threads,
+  TakeTurns(result.num_approaches - num_before, NumThreadsOf(choices),
             std::numeric_limits<std::uint32_t>::max(),
             {.make = make,
              .keep = [&](const std::string& line) { directory.Append(line); },
@@ -220,8 +240,8 @@ StudyResult RunStudy(const StudySpec& study,
   directory.Sync();
   result.approaches = directory.Read();
   result.num_made = directory.num_done() - num_before;
-  result.num_frames = scanners.Effort().num_frames;
-  result.num_traced = scanners.Effort().num_traced;
+  result.num_frames = scanners->Effort().num_frames;
+  result.num_traced = scanners->Effort().num_traced;
   result.elapsed_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;

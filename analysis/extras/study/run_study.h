@@ -47,6 +47,24 @@ struct StudyResult {
 /// @throws InputError as ReadRecipe() does.
 [[nodiscard]] Recipe ReadStudyRecipe(const StudySpec& study);
 
+/// Makes an approach of a study. Called by several threads at once.
+/// @return Nothing if it was stopped.
+/// @throws InputError that names the recipe and the number, as ScenarioDrawer and ApproachScanner
+/// do.
+using ApproachMaker = std::function<std::optional<ApproachRecord>(
+    const DrawnScenario& drawn, int num_threads, const std::function<bool()>& is_stopped)>;
+
+/// @param study,recipe Must outlive the maker.
+[[nodiscard]] ApproachMaker MakerOfApproaches(const StudySpec& study,
+                                              const Recipe& recipe,
+                                              const StudyChoices& choices);
+
+/// What the figures of a study depend on.
+/// @throws InputError if no scenario has what is asked about, as RunStudy() does.
+[[nodiscard]] StudyRecord IdentityOfStudy(const StudySpec& study,
+                                          const ScenarioDrawer& drawer,
+                                          const StudyChoices& choices);
+
 /// Makes the approaches that the folder does not hold yet, one on each thread.
 /// @throws InputError as StudyDirectory, ScenarioDrawer and ApproachScanner do; if no scenario has
 ///   what is asked about, "study.json: /objects/1: must be an object of a scenario (got "wagon")".

@@ -9,6 +9,7 @@
 #include "analysis/analysis_extras.h"
 #include "analysis/commands.h"
 #include "analysis/extras/study/kept_files.h"
+#include "analysis/extras/study/rare_study.h"
 #include "analysis/extras/study/run_study.h"
 #include "analysis/extras/study/study_report.h"
 #include "analysis/report/output.h"
@@ -33,6 +34,7 @@ struct StudyOptions {
   std::string shard;
   std::string certify = "1%";
   bool has_certify = false;
+  bool is_rare = false;
   ReportOutput output;
 };
 
@@ -59,31 +61,70 @@ std::optional<double> UsualCertify(const StudyChoices& choices) {
   return CertifiedShareOf("1%");
 }
 
+int Interrupted() {
+  std::cerr << "interrupted; the same command continues\n";
+  return kExitInterrupted;
+}
+
+StudyHooks HooksOf(const ProgressLine& line) {
+  return {[&line](std::uint32_t num_done, std::uint32_t num_approaches) {
+            line.Show("approaches", static_cast<double>(num_done) / num_approaches);
+          },
+          StopRequested};
+}
+
+int RunRareCommand(const StudyOptions& options,
+                   const StudySpec& study,
+                   const ScenarioDrawer& drawer,
+                   const std::string& command_line) {
+  if (!options.shard.empty() || !options.choices.shards.empty()) {
+    throw InputError("--rare: has no shards: each stage goes by the one before it");
+  }
+  if (options.has_certify || !options.table.empty()) {
+    throw InputError("--rare: must be without --certify and --table: it compares rungs itself");
+  }
+  const ProgressLine line;
+  auto rare = RunRareStudy(study, drawer, options.choices, HooksOf(line));
+  line.End();
+  if (!rare) return Interrupted();
+  std::erase_if(rare->approaches, [&](const ApproachRecord& approach) {
+    const RareRun& run = rare->run;
+    return run.figure.correction.num > 0 && !run.trials[approach.scenario].is_pair;
+  });
+  const std::vector<Observation> worst = WorstOf(ObservationsOf(rare->approaches));
+  KeepFiles(
+      study, [&](std::uint32_t number) { return DrawRare(*rare, drawer, number); }, worst, {},
+      options.output.out);
+  Report report{.title = study.question.empty() ? "Rare failures" : study.question,
+                .command = command_line,
+                .facts = FactsOfStudy(study, rare->identity, rare->run.trials.size())};
+  report.headlines = {{.title = "Not detected in time", .value = rare->run.figure.probability}};
+  report.sections = RareSections(*rare);
+  report.sections.push_back(WorstSection(worst, ShownPath(options.output.out)));
+  for (const auto& fact : MakerFacts(ProgramVersion())) report.facts.push_back(fact);
+  EmitReport(report, options.output, "report");
+  return kExitSuccess;
+}
+
 int RunStudyCommand(StudyOptions options, const std::string& command_line) {
   if (options.output.out.empty()) {
     throw InputError("--out: missing: the folder of the study, in which it can be continued");
   }
   StudySpec study = ReadStudy(options.study);
   study.table = options.table;
+  if (options.is_rare && !study.rare) study.rare.emplace();
   const Recipe recipe = ReadStudyRecipe(study);
   const ScenarioDrawer drawer(recipe);
   CatchStopSignals();
-  const ProgressLine line;
-  const StudyHooks hooks = {[&](std::uint32_t num_done, std::uint32_t num_approaches) {
-                              line.Show("approaches",
-                                        static_cast<double>(num_done) / num_approaches);
-                            },
-                            StopRequested};
   options.choices.directory = options.output.out;
+  if (study.rare) return RunRareCommand(options, study, drawer, command_line);
   options.choices.certify =
       options.has_certify ? CertifiedShareOf(options.certify) : UsualCertify(options.choices);
-  const StudyResult result = RunStudy(study, drawer, options.choices, hooks);
+  const ProgressLine line;
+  const StudyResult result = RunStudy(study, drawer, options.choices, HooksOf(line));
   line.End();
   if (!options.output.is_json) std::cout << Summary(result);
-  if (!result.is_complete()) {
-    std::cerr << "interrupted; the same command continues\n";
-    return kExitInterrupted;
-  }
+  if (!result.is_complete()) return Interrupted();
   if (!options.choices.shard.is_whole()) {
     std::cout << "shard " << options.shard << " is complete; --shards joins all of them\n";
     return kExitSuccess;
@@ -94,7 +135,9 @@ int RunStudyCommand(StudyOptions options, const std::string& command_line) {
                      ": no approach comes to an object in the way: nothing can be detected");
   }
   const std::vector<Observation> worst = WorstOf(observations);
-  KeepFiles(study, drawer, worst, SampleOf(observations), options.output.out);
+  KeepFiles(
+      study, [&](std::uint32_t number) { return drawer.Draw(number); }, worst,
+      SampleOf(observations), options.output.out);
   Report report = MakeStudyReport(study, Json::parse(ReadFileWhole(study.recipe)), result,
                                   observations, command_line);
   report.sections.insert(report.sections.end() - 1,
@@ -127,6 +170,8 @@ void AddStudy(ProgramOptions& app, ProgramCommand& command) {
                  "Share of the frames' time, such as 1%, for making some firings near the objects "
                  "anew on rung reference, which tells the numerical error; or off")
       .ShowDefault();
+  study.AddFlag("--rare", options->is_rare,
+                "Estimate how often something in the way is not detected in time, however rare");
   AddThreads(study, options->choices.num_threads);
   AddIsa(study, options->choices.isa);
   study.WhenParsed([&command, options, study] {

@@ -41,6 +41,7 @@ void Describe(Archive& a, StudyRecord& s) {
   a.Required("frames", s.frames, "Of each approach.");
   a.Optional("certify", s.certify, "Share of the time that certificates may take.");
   a.Optional("shard", s.shard, "Number and count: 2/7.");
+  a.Optional("rare", s.rare, "How rare failures are sought.");
   a.Ensure({"shard"}, s.shard.empty() || ParseShard(s.shard), "must be a shard");
 }
 
@@ -100,7 +101,8 @@ StudyDirectory::StudyDirectory(fs::path directory, StudyRecord identity, const S
                                  "a study", StudyDifference);
   if (!is_new) RefuseStrangers(directory_);
   ScenarioLines lines(directory_ / kApproachesFile, shard_);
-  num_done_ = lines.Skip(shard.NumOf(ours.num_scenarios));
+  // How many approaches rare failures take, only their run tells.
+  num_done_ = ours.rare.empty() ? lines.Skip(shard.NumOf(ours.num_scenarios)) : lines.Skip();
   lines_.emplace(directory_ / kApproachesFile, lines.size());
 }
 

@@ -39,6 +39,7 @@ struct StudyRecord {
   StudyFramesRecord frames{};
   std::optional<double> certify{};  ///< Share of the time that certificates may take.
   std::string shard{};              ///< "2/7"; empty for a whole study.
+  std::string rare{};               ///< The RareSpec as text; empty where none is asked for.
 };
 void Describe(Archive& a, StudyRecord& s);
 

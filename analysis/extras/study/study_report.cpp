@@ -43,26 +43,6 @@ std::string SeenText(const StudySpec& study) {
   return ClusterDetectorText(*study.detector) + "; in " + frames;
 }
 
-std::vector<std::pair<std::string, std::string>> FactsOfStudy(const StudySpec& study,
-                                                              const StudyResult& result) {
-  const StudyRecord& identity = result.identity;
-  std::string bases;
-  for (const std::string& hash : identity.base_hashes) {
-    bases += (bases.empty() ? "" : ", ") + hash;
-  }
-  const BrakingSpec& braking = study.detect.braking;
-  return {
-      {"Study", ShownPath(study.file) + " (" + identity.study_hash + ")"},
-      {"Recipe", ShownPath(study.recipe) + " (" + identity.recipe_hash + ")"},
-      {"Bases", bases},
-      {"Approaches", NumberText(result.approaches.size())},
-      {"Asked about", study.ObjectsText()},
-      {"Detected", SeenText(study)},
-      {"Braking", NumberText(braking.reaction_s) + " s, " + NumberText(braking.deceleration_mps2) +
-                      " m/s2, margin " + NumberText(braking.margin_m) + " m"},
-      {"Simulated by", identity.version + ", Embree " + identity.embree + ", " + identity.isa}};
-}
-
 // Each target that a driver's distance is published for.
 Table DriverTable(const std::vector<TargetResult>& targets, const Json& yardsticks) {
   Table table{
@@ -89,6 +69,26 @@ Table DriverTable(const std::vector<TargetResult>& targets, const Json& yardstic
 }
 
 }  // namespace
+
+std::vector<std::pair<std::string, std::string>> FactsOfStudy(const StudySpec& study,
+                                                              const StudyRecord& identity,
+                                                              std::size_t num_approaches) {
+  std::string bases;
+  for (const std::string& hash : identity.base_hashes) {
+    bases += (bases.empty() ? "" : ", ") + hash;
+  }
+  const BrakingSpec& braking = study.detect.braking;
+  return {
+      {"Study", ShownPath(study.file) + " (" + identity.study_hash + ")"},
+      {"Recipe", ShownPath(study.recipe) + " (" + identity.recipe_hash + ")"},
+      {"Bases", bases},
+      {"Approaches", NumberText(num_approaches)},
+      {"Asked about", study.ObjectsText()},
+      {"Detected", SeenText(study)},
+      {"Braking", NumberText(braking.reaction_s) + " s, " + NumberText(braking.deceleration_mps2) +
+                      " m/s2, margin " + NumberText(braking.margin_m) + " m"},
+      {"Simulated by", identity.version + ", Embree " + identity.embree + ", " + identity.isa}};
+}
 
 Section YardsticksSection(const std::vector<TargetResult>& targets) {
   const Json yardsticks = Json::parse(kYardsticks);
@@ -155,7 +155,7 @@ Report MakeStudyReport(const StudySpec& study,
                        const std::string& command) {
   Report report{.title = study.question.empty() ? "A study of detection" : study.question,
                 .command = command,
-                .facts = FactsOfStudy(study, result)};
+                .facts = FactsOfStudy(study, result.identity, result.approaches.size())};
   const std::vector<TargetResult> targets = TargetsOf(observations);
   report.headlines = VerdictHeadlines(targets);
   const std::vector<Factor> factors = FactorsOf(observations);

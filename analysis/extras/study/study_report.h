@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/estimate/detection_curve.h"
@@ -74,6 +76,9 @@ void AddTable(ProgramOptions& command, std::vector<std::string>& factors);
 
 /// Whether a section has nothing to say, as those of what a study does not draw.
 [[nodiscard]] bool SaysNothing(const Section& section);
+/// What a study asks and its figures depend on.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> FactsOfStudy(
+    const StudySpec& study, const StudyRecord& identity, std::size_t num_approaches);
 
 /// Reports a study: for each target whether it is detected in time, with which probability at which
 /// distance, what matters for that, the conditions in which it fails, and published distances.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,6 +11,14 @@
 #include "analysis/extras/detectors/detection.h"
 
 namespace railcast {
+
+/// How the probability of rare failures is sought.
+struct RareSpec {
+  std::string cheap = "surface";  ///< The rung on which most approaches are made.
+  std::uint32_t per_stage = 300;
+  double precision = 0.3;
+  std::uint32_t most_approaches = 20'000;
+};
 
 /// A study: what is asked of the scenarios of a recipe (docs/study.md).
 struct StudySpec {
@@ -26,6 +35,7 @@ struct StudySpec {
   /// Names of the factors of the table of verdicts, which the option --table says, not the file.
   /// Empty = those that matter most.
   std::vector<std::string> table;
+  std::optional<RareSpec> rare;  ///< Absent: all approaches are as the recipe draws them.
 
   /// What is asked about, for pages: "wagons/3, person", or "all objects in the way".
   [[nodiscard]] std::string ObjectsText() const;

@@ -44,6 +44,21 @@ double RoundedDraw(double value) {
   return rounded;
 }
 
+// By halving: shares of a normal distribution have no closed inverse.
+double NormalAt(const NormalDraw& normal, double quantile) {
+  constexpr int kNumHalvings = 60;
+  constexpr double kFarthest = 10.0;  // Standard deviations.
+  double low = normal.min.value_or(normal.mean - kFarthest * normal.sd);
+  double high = normal.max.value_or(normal.mean + kFarthest * normal.sd);
+  const double share = quantile * ShareWithin(normal);
+  for (int i = 0; i < kNumHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    const bool is_below = ShareWithin({normal.mean, normal.sd, normal.min, middle}) < share;
+    (is_below ? low : high) = middle;
+  }
+  return RoundedDraw(high);
+}
+
 double DrawNormal(const NormalDraw& normal,
                   const KeyedDraws& draws,
                   const std::string& name,
@@ -51,6 +66,7 @@ double DrawNormal(const NormalDraw& normal,
   // The least share within the bounds is a thousandth, so that this many draws never suffice only
   // once in 1e43.
   constexpr std::uint32_t kMostTries = 100'000;
+  if (const auto quantile = draws.Given(name, turn)) return NormalAt(normal, *quantile);
   const double min = normal.min.value_or(-std::numeric_limits<double>::infinity());
   const double max = normal.max.value_or(std::numeric_limits<double>::infinity());
   for (std::uint32_t i = 0; i < kMostTries; ++i) {
@@ -63,11 +79,6 @@ double DrawNormal(const NormalDraw& normal,
   }
   Check(false, "bounds leave a thousandth of a normal distribution");
   return normal.mean;
-}
-
-std::vector<double> WeightsOf(const ChoiceDraw& choice) {
-  if (!choice.weights.values.empty()) return choice.weights.values;
-  return std::vector<double>(choice.values.values.size(), 1.0);
 }
 
 /// Draws from one distribution.
@@ -115,7 +126,13 @@ struct Extremes {
 
 }  // namespace
 
+std::optional<double> KeyedDraws::Given(std::string_view name, std::uint32_t turn) const {
+  const auto found = turn == 0 ? given_.find(name) : given_.end();
+  return found == given_.end() ? std::nullopt : std::optional(found->second);
+}
+
 double KeyedDraws::Unit(std::string_view name, std::uint32_t turn) const {
+  if (const auto given = Given(name, turn)) return *given;
   return static_cast<double>(WordsOfName(seed_, scenario_, name, turn) >> 11U) * 0x1p-53;
 }
 
@@ -132,6 +149,11 @@ Json DrawValue(const Distribution& distribution,
 
 std::vector<Json> ExtremesOf(const Distribution& distribution) {
   return std::visit(Extremes(), distribution);
+}
+
+std::vector<double> WeightsOf(const ChoiceDraw& choice) {
+  if (!choice.weights.values.empty()) return choice.weights.values;
+  return std::vector<double>(choice.values.values.size(), 1.0);
 }
 
 std::size_t IndexByWeight(const std::vector<double>& weights, double unit) {

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -11,21 +14,29 @@
 
 namespace railcast {
 
+/// Quantiles in [0, 1) that values have instead of drawn ones, by the names of their draws.
+using GivenQuantiles = std::map<std::string, double, std::less<>>;
+
 /// The random numbers of one scenario of a recipe. Each depends on the recipe's seed, the number of
 /// the scenario and the name of what is drawn, and on nothing else: a new name moves no other draw.
 class KeyedDraws {
  public:
-  KeyedDraws(std::uint64_t seed, std::uint32_t scenario) : seed_(seed), scenario_(scenario) {}
+  KeyedDraws(std::uint64_t seed, std::uint32_t scenario, GivenQuantiles given = {})
+      : seed_(seed), scenario_(scenario), given_(std::move(given)) {}
 
-  /// Uniform in [0, 1), with 53 bits.
+  /// Uniform in [0, 1), with 53 bits, or what is given.
   /// @param turn Which of several draws of that name.
   [[nodiscard]] double Unit(std::string_view name, std::uint32_t turn = 0) const;
+  /// The quantile that is given for the first draw of a name. What finds no place with it is drawn
+  /// as ever on further turns.
+  [[nodiscard]] std::optional<double> Given(std::string_view name, std::uint32_t turn) const;
   /// A seed for draws of another kind.
   [[nodiscard]] std::uint64_t Seed(std::string_view name) const;
 
  private:
   std::uint64_t seed_;
   std::uint32_t scenario_;
+  GivenQuantiles given_;
 };
 
 /// Uniform in [min, max).
@@ -90,6 +101,9 @@ using Distribution = std::variant<UniformDraw, NormalDraw, LogUniformDraw, Integ
 /// Index of one of several weights, each in proportion to its value.
 /// @pre Their sum is positive.
 [[nodiscard]] std::size_t IndexByWeight(const std::vector<double>& weights, double unit);
+
+/// The weights of a choice, as many as values.
+[[nodiscard]] std::vector<double> WeightsOf(const ChoiceDraw& choice);
 
 /// Share of a normal distribution between its bounds.
 [[nodiscard]] double ShareWithin(const NormalDraw& normal);

@@ -224,13 +224,13 @@ ObjectDraw DrawObject(const Recipe& recipe,
                       DraftedScenario& draft) {
   const PlacedObjects& objects = recipe.objects[index];
   const std::string name = objects.name + "/" + std::to_string(turn.number);
-  const std::string key = "object\n" + name + "\n";
   ObjectDraw result{objects.object.json, Json::object(), 0.0};
   for (const PointedDraw& draw : objects.draws.draws) {
     const auto known = turn.forced.find(draw.pointer);
-    const Json value = known != turn.forced.end() ? known->second
-                                                  : DrawValue(draw.distribution, turn.draws,
-                                                              key + draw.pointer, turn.attempt);
+    const Json value = known != turn.forced.end()
+                           ? known->second
+                           : DrawValue(draw.distribution, turn.draws,
+                                       NameOfObjectDraw(name, draw.pointer), turn.attempt);
     if (const auto obstacle = SetAt(result.object, draw.pointer, value)) {
       throw InputError(std::vector<Fault>{
           draft.FaultAt(PlaceOfObjects(index) + "/draws" + PointerStep(draw.pointer), *obstacle)});
@@ -238,7 +238,8 @@ ObjectDraw DrawObject(const Recipe& recipe,
     result.drawn[draw.pointer] = value;
   }
   result.ahead_m =
-      DrawValue(objects.ahead_m, turn.draws, key + "ahead_m", turn.attempt).get<double>();
+      DrawValue(objects.ahead_m, turn.draws, NameOfObjectDraw(name, "ahead_m"), turn.attempt)
+          .get<double>();
   const DraftedScenario::Start start = draft.start();
   const double s_m = start.s_m + start.direction * result.ahead_m;
   result.object["name"] = name;

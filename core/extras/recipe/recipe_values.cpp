@@ -93,6 +93,10 @@ std::string NameOfOptionDraw(const DrawGroup& group,
   return "group\n" + group.name + "\n" + option.name + "\n" + pointer;
 }
 
+std::string NameOfObjectDraw(const std::string& object, const std::string& what) {
+  return "object\n" + object + "\n" + what;
+}
+
 Json PutRecipeValues(const Recipe& recipe,
                      const KeyedDraws& draws,
                      std::uint32_t scenario,

@@ -18,6 +18,9 @@ using ForcedValues = std::map<std::string, Json>;
 [[nodiscard]] std::string NameOfOptionDraw(const DrawGroup& group,
                                            const GroupOption& option,
                                            const std::string& pointer);
+/// @param object "person/1".
+/// @param what A pointer into it, or "ahead_m".
+[[nodiscard]] std::string NameOfObjectDraw(const std::string& object, const std::string& what);
 
 /// Puts the recipe's values into a scenario: first what is set, then the groups, then the draws,
 /// those nearest to the root first.

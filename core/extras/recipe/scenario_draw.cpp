@@ -33,12 +33,13 @@ class OneDraw {
   OneDraw(const Recipe& recipe,
           const RecipeBases& bases,
           const SplitPlan& plan,
-          std::uint32_t number)
+          std::uint32_t number,
+          const GivenQuantiles& given)
       : recipe_(recipe),
         plan_(plan),
         number_(number),
-        draws_(recipe.seed, number),
-        split_(plan.PartOf(number)),
+        draws_(recipe.seed, number, given),
+        split_(plan.PartOf(number % recipe.num_scenarios)),
         base_(IndexByWeight(plan.BaseWeights(split_), draws_.Unit("base"))),
         draft_(recipe, number, bases.json(base_), base_) {}
 
@@ -219,8 +220,8 @@ class OneDraw {
 
 }  // namespace
 
-DrawnScenario ScenarioDrawer::Draw(std::uint32_t number) const {
-  return OneDraw(recipe_, bases_, plan_, number).Run();
+DrawnScenario ScenarioDrawer::Draw(std::uint32_t number, const GivenQuantiles& given) const {
+  return OneDraw(recipe_, bases_, plan_, number, given).Run();
 }
 
 }  // namespace railcast

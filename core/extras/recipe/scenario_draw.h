@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/extras/recipe/distribution.h"
 #include "core/extras/recipe/recipe.h"
 #include "core/extras/recipe/recipe_files.h"
 #include "core/extras/recipe/split_plan.h"
@@ -32,9 +33,11 @@ class ScenarioDrawer {
   explicit ScenarioDrawer(const Recipe& recipe)
       : recipe_(recipe), bases_(recipe), plan_(recipe, bases_) {}
 
+  /// @param number May exceed those of the recipe.
+  /// @param given Of values that are given instead of drawn (KeyedDraws).
   /// @throws InputError that names the recipe's key if the scenario is faulty or something finds no
   ///   place in it.
-  [[nodiscard]] DrawnScenario Draw(std::uint32_t number) const;
+  [[nodiscard]] DrawnScenario Draw(std::uint32_t number, const GivenQuantiles& given = {}) const;
 
   [[nodiscard]] const Recipe& recipe() const { return recipe_; }
   [[nodiscard]] const RecipeBases& bases() const { return bases_; }
