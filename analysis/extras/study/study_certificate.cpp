@@ -63,6 +63,7 @@ Section StudyCertificateSection(const std::optional<RunCertificate>& certificate
       "them in a frame that was traced, and only their echoes count.");
   std::erase_if(section.tables,
                 [](const Table& table) { return table.key == "certificate_by_class"; });
+  for (Table& table : section.tables) table.is_open = true;
   return section;
 }
 
