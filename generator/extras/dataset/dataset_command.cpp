@@ -1,3 +1,4 @@
+#include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
@@ -122,7 +123,7 @@ std::string UsualCertify(const Recipe& recipe, const DatasetChoices& choices) {
   const std::filesystem::path file = choices.directory / kDatasetFile;
   if (!std::filesystem::exists(file)) return "1%";
   const auto record = ReadRecord<DatasetRecord>(ReadFileWhole(file), ShownPath(file));
-  return record.certify ? NumberText(100.0 * *record.certify) + "%" : "off";
+  return record.certify ? NumberText(std::round(1e10 * *record.certify) / 1e8) + "%" : "off";
 }
 
 int RunDatasetCommand(DatasetOptions options) {
