@@ -41,9 +41,8 @@ int Report(const std::filesystem::path& directory, const Verify& verify) {
 int RunVerify(const std::filesystem::path& directory) {
   return Report(directory, [&](const auto& show) {
     if (IsDataset(directory)) return VerifyDataset(directory, show);
-    if (IsInsertion(directory)) return VerifyInsertion(directory, show);
     if (IsSurvey(directory)) return VerifySurvey(directory);
-    return VerifySequence(directory, show);
+    return VerifyFolder(directory, show);
   });
 }
 

@@ -6,11 +6,11 @@
 
 #include "analysis/extras/study/approach_record.h"
 #include "analysis/extras/study/study_directory.h"
+#include "core/extras/insert/convert_record.h"
+#include "core/extras/insert/insert_record.h"
 #include "core/extras/ros/bag/bag_lines.h"
-#include "core/io/run/convert_record.h"
 #include "core/io/run/dataset_record.h"
 #include "core/io/run/dataset_report_record.h"
-#include "core/io/run/insert_record.h"
 #include "core/io/run/object_record.h"
 #include "core/io/run/run_record.h"
 #include "core/io/run/sensors_record.h"

@@ -52,6 +52,18 @@ void RefuseUnread(const std::filesystem::path& directory) {
   }
 }
 
+/// Opens a directory that was written by railcast-generate insert, or its folder of clouds; null if
+/// it is neither.
+std::unique_ptr<Recording> OpenIfInserted(const std::filesystem::path& directory) {
+  const RecordingExtras& extras = RecordingExtras::Get();
+  if (extras.open_inserted != nullptr) return extras.open_inserted(directory);
+  for (const std::filesystem::path& file :
+       {directory / kInsertFile, directory / ".." / kInsertFile}) {
+    if (exists(file)) throw LacksExtra(ShownPath(directory), "insert");
+  }
+  return nullptr;
+}
+
 /// Opens a directory of clouds: side by side, or in the layout of a sequence, of an insertion, of
 /// merged clouds, of a received stream or of KITTI.
 std::unique_ptr<Recording> OpenDirectory(const std::filesystem::path& directory) {
@@ -59,7 +71,7 @@ std::unique_ptr<Recording> OpenDirectory(const std::filesystem::path& directory)
   // clouds alone cannot be checked.
   const bool is_of_run = exists(directory / kRunFile) && exists(directory / kScenarioFile);
   if (is_of_run || exists(directory / kFramesFile)) return OpenSequence(directory);
-  if (auto inserted = OpenInserted(directory)) return inserted;
+  if (auto inserted = OpenIfInserted(directory)) return inserted;
   if (exists(directory / kMergedFile)) return OpenMerged(directory);
   CheckIsOfOneSensor(directory);
   if (exists(directory / kDatasetFile)) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -21,6 +22,7 @@ struct BagRecord;
 struct Cloud;
 struct CloudsOfFrame;
 struct SequenceSummary;
+struct Verification;
 
 /// A kind of recordings that an extra adds.
 struct RecordingKind {
@@ -65,6 +67,16 @@ struct SensorPackets {
 /// build lacks is null.
 struct RecordingExtras {
   std::vector<RecordingKind> kinds;
+
+  /// Opens a directory of a recording that something was put into; null if it is none.
+  /// @throws InputError as OpenRecording().
+  RecordingKind::Open open_inserted = nullptr;
+
+  /// As VerifyFolder(), by the extras whose folders these verify (kFilesOfExtras).
+  std::map<std::string_view,
+           Verification (*)(const std::filesystem::path& directory,
+                            const std::function<void(double)>& on_progress)>
+      verify;
 
   /// Counts the packets of each sensor in a capture; empty if `source` is none.
   /// @throws InputError if it cannot be read.

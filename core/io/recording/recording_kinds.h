@@ -77,15 +77,6 @@ inline constexpr std::string_view kReceivedFile = "frames.csv";
 /// @throws InputError with one line if a file cannot be read or has changed since it was written.
 [[nodiscard]] std::unique_ptr<Recording> OpenSequence(const std::filesystem::path& directory);
 
-/// Opens what `railcast-generate insert` wrote: the frames that insert.jsonl names, checked against
-/// its hashes, with the boxes of what was put in, the poses, and the labels and instances of
-/// points/NNNNNN.npy where the clouds have none. The scenario is the plan on the recording's line.
-/// A sequence into which something was put is opened as a sequence.
-/// @param directory The one that was written, or its folder `recording`.
-/// @return Null if it is neither, or was written by a program before 1.0.0.
-/// @throws InputError as OpenSequence() does.
-[[nodiscard]] std::unique_ptr<Recording> OpenInserted(const std::filesystem::path& directory);
-
 /// What OpenMerged() calls its recordings.
 inline constexpr std::string_view kMergedKind = "merged clouds";
 

@@ -27,13 +27,6 @@ inline constexpr std::string_view kSequencesFolder = "sequences";
 inline constexpr std::string_view kRecordingFolder = "recording";
 /// Beside it: the file with a line for each frame, which makes the frame count as done.
 inline constexpr std::string_view kInsertFile = "insert.jsonl";
-/// Also there: the plan as a scenario whose line is the recording's.
-inline constexpr std::string_view kInsertWorldFile = "world.resolved.json";
-/// Also there: a NumPy array for each frame, with a row for each point of its cloud.
-inline constexpr std::string_view kInsertPointsFolder = "points";
-inline constexpr const char* kInsertPointType =
-    "[('label', '<u4'), ('instance', '<u4'), ('outcome', 'u1'), ('change', 'u1')]";
-inline constexpr std::size_t kInsertPointBytes = 10;
 inline constexpr std::array<std::string_view, 3> kSplitFiles = {"split/train.txt", "split/val.txt",
                                                                 "split/test.txt"};
 

@@ -1,8 +1,10 @@
 #include "core/io/verify/verification.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "core/base/error.h"
@@ -11,6 +13,7 @@
 #include "core/io/content_hash.h"
 #include "core/io/recording/recording_extras.h"
 #include "core/io/recording/sequence_check.h"
+#include "core/io/run/dataset_files.h"
 #include "core/io/run/motion_files.h"
 #include "core/io/run/run_folder.h"
 #include "core/io/run/sequence_files.h"
@@ -25,6 +28,10 @@ namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Files by which the folders of extras' commands are known, each with the extra.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kFilesOfExtras = {
+    {{kInsertFile, "insert"}, {"convert.jsonl", "insert"}}};
 
 /// Files that a manifest always names.
 std::vector<std::string> NeededFiles(const RunRecord& run) {
@@ -340,6 +347,20 @@ void Verifier::FindOthers() {
 Verification VerifySequence(const fs::path& directory,
                             const std::function<void(double)>& on_progress) {
   return Verifier(directory, on_progress).Run();
+}
+
+Verification VerifyFolder(const fs::path& directory,
+                          const std::function<void(double)>& on_progress) {
+  const RecordingExtras& extras = RecordingExtras::Get();
+  for (const auto& [file, extra] : kFilesOfExtras) {
+    if (!IsThere(directory / file)) continue;
+    const auto verify = extras.verify.find(extra);
+    if (verify == extras.verify.end()) {
+      throw LacksExtra(ShownPath(directory / file), std::string(extra));
+    }
+    return verify->second(directory, on_progress);
+  }
+  return VerifySequence(directory, on_progress);
 }
 
 std::vector<std::string> FaultsToMend(const fs::path& directory, const Verification& found) {

@@ -32,22 +32,18 @@ struct Verification {
 [[nodiscard]] Verification VerifySequence(const std::filesystem::path& directory,
                                           const std::function<void(double)>& on_progress);
 
+/// Verifies what VerifySequence() does, or the folder of an extra's command.
+/// @param on_progress Called from time to time with the completed share.
+/// @throws InputError if the directory is none of these, or this build lacks the extra.
+[[nodiscard]] Verification VerifyFolder(const std::filesystem::path& directory,
+                                        const std::function<void(double)>& on_progress);
+
 /// What the command that made a complete folder does as it finds it again: removes what an
 /// interrupted run has left, and refuses files of others.
 /// @return The other faults; what they name must be made anew.
 /// @throws InputError "DIR: holds a file that does not belong to this run (notes.txt); ...".
 [[nodiscard]] std::vector<std::string> FaultsToMend(const std::filesystem::path& directory,
                                                     const Verification& found);
-
-/// Whether a directory holds a recording into which something was put, or that was converted.
-[[nodiscard]] bool IsInsertion(const std::filesystem::path& directory);
-
-/// Compares every file of such a directory with run.json, manifest.json and insert.jsonl or
-/// convert.jsonl, and looks for files that these do not name. A recording in it that is a sequence is verified as one.
-/// @param on_progress Called from time to time with the completed share.
-/// @throws InputError if the directory is none.
-[[nodiscard]] Verification VerifyInsertion(const std::filesystem::path& directory,
-                                           const std::function<void(double)>& on_progress);
 
 /// Whether a directory holds a survey, as railcast-generate survey makes it.
 [[nodiscard]] bool IsSurvey(const std::filesystem::path& directory);

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/io/run/convert_record.h"
+#include "core/extras/insert/convert_record.h"
 #include "generator/extras/insert/insert_plan.h"
 #include "generator/run/frame_pipe.h"
 #include "railcast/io/recording.h"

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "core/extras/insert/convert_record.h"
 #include "core/extras/ros/bag/bag.h"
 #include "core/extras/ros/messages/frame_topics.h"
 #include "core/extras/ros/messages/sensor_messages.h"
 #include "core/io/cloud/cloud.h"
-#include "core/io/run/convert_record.h"
 #include "generator/extras/convert/convert.h"
 #include "generator/extras/insert/clouds/recording_output.h"
 #include "generator/extras/insert/plan/pose_file.h"

@@ -5,10 +5,10 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/extras/insert/insert_record.h"
 #include "core/io/record/read_record.h"
 #include "core/io/record/record_text.h"
 #include "core/io/run/dataset_files.h"
-#include "core/io/run/insert_record.h"
 #include "core/io/run/object_record.h"
 #include "core/io/run/sequence_files.h"
 

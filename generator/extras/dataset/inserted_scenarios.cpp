@@ -11,14 +11,14 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/extras/insert/insert_record.h"
+#include "core/extras/insert/insertion_verification.h"
 #include "core/io/content_hash.h"
 #include "core/io/record/read_record.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/run/dataset_files.h"
-#include "core/io/run/insert_record.h"
 #include "core/io/run/run_record.h"
 #include "core/io/run/sequence_files.h"
-#include "core/io/verify/verification.h"
 #include "core/io/write_file.h"
 
 namespace railcast {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/run/insert_record.h"
+#include "core/extras/insert/insert_record.h"
 #include "generator/extras/insert/clouds/edit_rows.h"
 #include "generator/extras/insert/clouds/recording_output.h"
 #include "generator/extras/insert/insert_plan.h"

@@ -8,12 +8,12 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/extras/insert/convert_record.h"
+#include "core/extras/insert/insertion_verification.h"
 #include "core/io/content_hash.h"
 #include "core/io/record/read_record.h"
-#include "core/io/run/convert_record.h"
 #include "core/io/run/folder_identity.h"
 #include "core/io/unfinished_file.h"
-#include "core/io/verify/verification.h"
 #include "core/io/write_file.h"
 
 namespace railcast {

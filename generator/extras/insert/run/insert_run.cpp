@@ -15,12 +15,12 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/extras/insert/insert_record.h"
 #include "core/io/content_hash.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/plausibility.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/run/dataset_files.h"
-#include "core/io/run/insert_record.h"
 #include "core/io/run/run_folder.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/run/table_records.h"

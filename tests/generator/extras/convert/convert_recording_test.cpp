@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "core/extras/insert/insertion_verification.h"
 #include "core/extras/packets/pcap/pcap_writer.h"
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/run/table_records.h"
-#include "core/io/verify/verification.h"
 #include "core/io/write_file.h"
 #include "core/scenario/sensors.h"
 #include "generator/extras/insert/plan/pose_file.h"

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "core/base/text.h"
+#include "core/extras/insert/insertion_verification.h"
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/recording/cloud_frame.h"
-#include "core/io/verify/verification.h"
 #include "core/io/write_file.h"
 #include "generator/extras/insert/clouds/source_files.h"
 #include "generator/extras/insert/run/insert_run.h"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/text.h"
-#include "core/io/run/insert_record.h"
+#include "core/extras/insert/insert_record.h"
 #include "generator/extras/insert/run/insert_run.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/made_sequence.h"

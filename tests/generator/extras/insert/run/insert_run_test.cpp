@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/extras/insert/insertion_verification.h"
 #include "core/io/field_layout.h"
-#include "core/io/verify/verification.h"
 #include "core/io/write_file.h"
 #include "generator/extras/insert/clouds/sidecars.h"
 #include "generator/extras/insert/packets/insertion.h"

@@ -11,6 +11,8 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/extras/insert/insert_record.h"
+#include "core/extras/insert/insertion_verification.h"
 #include "core/io/cloud/kitti.h"
 #include "core/io/record/read_record.h"
 #include "core/io/recording/recording_extras.h"
@@ -18,7 +20,6 @@
 #include "core/io/recording/sequence_check.h"
 #include "core/io/run/camera_files.h"
 #include "core/io/run/dataset_files.h"
-#include "core/io/run/insert_record.h"
 #include "core/io/run/run_record.h"
 #include "railcast/scenario.h"
 
@@ -177,8 +178,13 @@ class InsertionRecording : public Recording {
   bool is_copy_ = false;  ///< Whether frames must be skipped.
 };
 
-}  // namespace
-
+/// Opens what `railcast-generate insert` wrote: the frames that insert.jsonl names, checked against
+/// its hashes, with the boxes of what was put in, the poses, and the labels and instances of
+/// points/NNNNNN.npy where the clouds have none. The scenario is the plan on the recording's line.
+/// A sequence into which something was put is opened as a sequence.
+/// @param directory The one that was written, or its folder `recording`.
+/// @return Null if it is neither, or was written by a program before 1.0.0.
+/// @throws InputError as OpenSequence() does.
 std::unique_ptr<Recording> OpenInserted(const fs::path& directory) {
   fs::path insertion = directory;
   if (!exists(insertion / kInsertFile)) {
@@ -192,6 +198,13 @@ std::unique_ptr<Recording> OpenInserted(const fs::path& directory) {
   if (insertion == directory && exists(sequence / kFramesFile)) return OpenSequence(sequence);
   if (!exists(insertion / kInsertFile) || !exists(insertion / kInsertWorldFile)) return nullptr;
   return std::make_unique<InsertionRecording>(insertion);
+}
+
+}  // namespace
+
+void AddInsert(RecordingExtras& extras) {
+  extras.open_inserted = OpenInserted;
+  extras.verify["insert"] = VerifyInsertion;
 }
 
 }  // namespace railcast

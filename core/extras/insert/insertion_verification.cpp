@@ -1,4 +1,4 @@
-#include "core/io/verify/verification.h"
+#include "core/extras/insert/insertion_verification.h"
 
 #include <algorithm>
 #include <string>
@@ -7,13 +7,13 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/extras/insert/convert_record.h"
+#include "core/extras/insert/insert_record.h"
 #include "core/io/content_hash.h"
 #include "core/io/record/read_record.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/sequence_check.h"
-#include "core/io/run/convert_record.h"
 #include "core/io/run/dataset_files.h"
-#include "core/io/run/insert_record.h"
 #include "core/io/run/run_record.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/verify/findings.h"
@@ -119,10 +119,6 @@ class InsertionVerifier : private Findings {
 };
 
 }  // namespace
-
-bool IsInsertion(const fs::path& directory) {
-  return IsThere(directory / kInsertFile) || IsThere(directory / kConvertFile);
-}
 
 Verification VerifyInsertion(const fs::path& directory,
                              const std::function<void(double)>& on_progress) {

@@ -1,7 +1,7 @@
-#include "core/io/run/convert_record.h"
+#include "core/extras/insert/convert_record.h"
 
+#include "core/extras/insert/insert_record.h"
 #include "core/io/record/read_record.h"
-#include "core/io/run/insert_record.h"
 #include "core/scenario/archive.h"
 
 namespace railcast {

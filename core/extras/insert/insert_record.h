@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,6 +13,14 @@
 namespace railcast {
 
 // The files that say what an insertion has put into a recording (docs/insert.md).
+
+/// Beside kInsertFile: the plan as a scenario whose line is the recording's.
+inline constexpr std::string_view kInsertWorldFile = "world.resolved.json";
+/// Also there: a NumPy array for each frame, with a row for each point of its cloud.
+inline constexpr std::string_view kInsertPointsFolder = "points";
+inline constexpr const char* kInsertPointType =
+    "[('label', '<u4'), ('instance', '<u4'), ('outcome', 'u1'), ('change', 'u1')]";
+inline constexpr std::size_t kInsertPointBytes = 10;
 
 /// The run that made the recording, if it is a sequence.
 struct InsertSourceRecord {

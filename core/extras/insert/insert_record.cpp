@@ -1,4 +1,4 @@
-#include "core/io/run/insert_record.h"
+#include "core/extras/insert/insert_record.h"
 
 #include "core/io/record/read_record.h"
 #include "core/scenario/archive.h"
