@@ -5,7 +5,7 @@
 
 #include "core/base/out_of_memory.h"
 #include "core/rail/network/network_draft.h"
-#include "core/rail/survey/survey_levels.h"
+#include "core/rail/survey/surveyed_scene.h"
 #include "core/scenario/build_faults.h"
 #include "core/scenario/descriptions.h"
 #include "core/scenario/json_reader.h"
@@ -120,9 +120,9 @@ void CheckNumberOfMaterials(const ScenarioSpec& spec, JsonSource& source) {
 
 // Adds the materials of a survey's surfaces, unless the scenario has them already.
 void AddSurveyMaterials(ScenarioSpec& spec) {
-  if (!spec.world.survey) return;
-  for (std::uint8_t level = 0; level < kNumSurveyLevels; ++level) {
-    Material material = MaterialOfLevel(level);
+  const auto materials = WorldExtras::Get().survey_materials;
+  if (!spec.world.survey || materials == nullptr) return;
+  for (Material& material : materials()) {
     if (std::ranges::find(spec.materials, material.name, &Material::name) == spec.materials.end()) {
       spec.materials.push_back(std::move(material));
     }

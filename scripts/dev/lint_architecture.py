@@ -21,7 +21,7 @@ ROOM_ORDERS = {
     "core/detect": "base kernels clutter detector beam effects".split(),
     "core/io": ". image cloud record run net stream recording verify".split(),
     # Of those before it, an extra includes those that its CMakeLists.txt names (lint_extras).
-    "core/extras": "packets ros dds osi recipe insert".split(),
+    "core/extras": "packets ros dds osi recipe insert survey".split(),
     "core/extras/packets": "velodyne spinning pcap ouster recording".split(),
     "core/extras/ros": "messages mcap bag recording".split(),
     "generator": ". run check sequence live trace world extras python".split(),

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/extras/survey/survey_file.h"
 #include "core/io/write_file.h"
-#include "core/rail/survey/survey_file.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/fuzz/fuzz_target.h"
 

@@ -234,8 +234,8 @@ struct WorldSpec {
   std::vector<DiamondCrossingSpec> diamond_crossings{};
   /// In plans of railcast-generate insert, instead of `alignment`: no world can be made of it.
   std::optional<RecordingWorldSpec> recording{};
-  /// File of a survey (core/rail/survey/survey_file.h), whose surfaces and wires take the place of
-  /// ground, tracks, contact line and plants; absent = none.
+  /// File of a survey (core/extras/survey/survey_file.h), whose surfaces and wires take the place
+  /// of ground, tracks, contact line and plants; absent = none.
   std::optional<std::string> survey{};
   /// What must be clear of structures about straight track without cant, from the lowest row
   /// upwards; empty = kClearHalfWidths (core/rail/clearance/clear_space.h).

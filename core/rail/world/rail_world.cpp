@@ -171,7 +171,7 @@ RailWorld::RailWorld(const WorldSpec& world,
   std::vector<LaidDiamond> diamonds = LayDiamonds(network);
   const ChunkGrid grid(alignment, kChunkLength_m, world.terrain.half_width_m);
   TilesOfChunks surveyed;
-  if (draft.survey) surveyed = AssignTiles(draft.survey->file().tiles(), alignment, grid);
+  if (draft.survey) surveyed = draft.survey->AssignTiles(alignment, grid);
   line_ = std::make_shared<const Line>(
       Line{std::move(draft.world), vehicle, labels, materials, seed, surfaces, alignment,
            std::move(network), std::move(turnouts), std::move(diamonds), grid,

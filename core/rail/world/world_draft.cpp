@@ -109,9 +109,9 @@ std::shared_ptr<const SurveyedScene> DraftSurvey(const WorldSource& source, Worl
   const std::string place = "/world/survey";
   if (!source.world.survey || !faults.AreKnown({place, "/labels", "/materials"})) return nullptr;
   return Attempt(place + ": ", faults.errors,
-                 [&] {
-                   return std::make_shared<const SurveyedScene>(*source.world.survey, source.labels,
-                                                                source.materials);
+                 [&, open = WorldExtras::Get().open_survey] {
+                   if (open == nullptr) throw LacksExtra(ShownPath(*source.world.survey), "survey");
+                   return open(*source.world.survey, source.labels, source.materials);
                  })
       .value_or(nullptr);
 }

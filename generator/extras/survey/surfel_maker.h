@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "core/rail/survey/survey_file.h"
+#include "core/extras/survey/survey_file.h"
 #include "generator/extras/survey/survey_voxels.h"
 
 namespace railcast {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/survey/survey_file.h"
+#include "core/extras/survey/survey_file.h"
 #include "generator/extras/survey/driven_axis.h"
 #include "generator/extras/survey/surfel_maker.h"
 #include "generator/extras/survey/survey_beams.h"

@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "core/rail/survey/survey_file.h"
+#include "core/extras/survey/survey_file.h"
 #include "generator/extras/survey/driven_axis.h"
 #include "generator/extras/survey/surfel_maker.h"
 

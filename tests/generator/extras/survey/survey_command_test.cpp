@@ -9,10 +9,10 @@
 
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/extras/survey/survey_file.h"
 #include "core/io/content_hash.h"
 #include "core/io/verify/verification.h"
 #include "core/io/write_file.h"
-#include "core/rail/survey/survey_file.h"
 #include "core/scenario/json_text.h"
 #include "generator/extras/survey/survey_beams.h"
 #include "railcast/scenario.h"

@@ -1,4 +1,4 @@
-#include "core/rail/survey/survey_file.h"
+#include "core/extras/survey/survey_file.h"
 
 #include <algorithm>
 #include <bit>
@@ -17,6 +17,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "files are little-endian");
 
+constexpr double kLeastReflectivity = 0.01;
+constexpr double kLevelRatio = 1.1;
 constexpr std::string_view kSurveyMagic = "RAILCAST SURVEY1";
 constexpr std::size_t kSurfelBytes = 9 * sizeof(float) + 4;
 constexpr std::size_t kGroundBytes = kGroundCells * kGroundCells * sizeof(float);
@@ -137,6 +139,18 @@ SurveyedWire TakeWire(SurveyBytes& bytes, std::size_t num_labels) {
 }
 
 }  // namespace
+
+std::uint8_t SurveyLevelOf(double reflectivity) {
+  if (!(reflectivity > kLeastReflectivity)) return 0;
+  const double level = std::log(reflectivity / kLeastReflectivity) / std::log(kLevelRatio);
+  return static_cast<std::uint8_t>(std::min(std::round(level), kNumSurveyLevels - 1.0));
+}
+
+Material MaterialOfLevel(std::uint8_t level) {
+  const std::string number = std::to_string(level);
+  return {.name = "surveyed_" + std::string(2 - number.size(), '0') + number,
+          .reflectivity = kLeastReflectivity * std::pow(kLevelRatio, level)};
+}
 
 std::array<std::int32_t, 2> SurveyCellAt(const Eigen::Vector2d& place_m) {
   return {static_cast<std::int32_t>(std::floor(place_m.x() / kSurveyTile_m)),

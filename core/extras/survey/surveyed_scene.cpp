@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <memory>
 #include <numbers>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/extras/survey/survey_file.h"
 #include "core/rail/base/rail_surfaces.h"
 #include "core/scene/shapes.h"
 
@@ -30,11 +33,31 @@ void AppendSurfel(const Surfel& surfel, const Eigen::Isometry3d& mesh_from_tile,
 
 constexpr int kSurveyedWireSides = 16;
 
-}  // namespace
+/// The scene of a file of tiles.
+class TiledScene : public SurveyedScene {
+ public:
+  /// @throws InputError as WorldExtras::open_survey().
+  TiledScene(const std::filesystem::path& file,
+             const LabelTable& labels,
+             const MaterialLibrary& materials);
 
-SurveyedScene::SurveyedScene(const std::filesystem::path& file,
-                             const LabelTable& labels,
-                             const MaterialLibrary& materials)
+  [[nodiscard]] TilesOfChunks AssignTiles(const Alignment& alignment,
+                                          const ChunkGrid& grid) const override;
+  void Add(const std::vector<std::size_t>& tiles,
+           const Transform& chunk_from_world,
+           Chunk& chunk) const override;
+  [[nodiscard]] std::optional<double> GroundHeight_m(const Eigen::Vector2d& place_m) const override;
+
+ private:
+  SurveyFile file_;
+  std::map<std::array<std::int32_t, 2>, std::size_t> tile_of_cell_;
+  std::vector<std::uint32_t> labels_;
+  std::vector<std::uint16_t> materials_;
+};
+
+TiledScene::TiledScene(const std::filesystem::path& file,
+                       const LabelTable& labels,
+                       const MaterialLibrary& materials)
     : file_(file) {
   ErrorList errors;
   for (const std::string& name : file_.labels()) {
@@ -55,9 +78,9 @@ SurveyedScene::SurveyedScene(const std::filesystem::path& file,
   for (std::size_t i = 0; i < file_.tiles().size(); ++i) tile_of_cell_[file_.tiles()[i].cell] = i;
 }
 
-void SurveyedScene::Add(const std::vector<std::size_t>& tiles,
-                        const Transform& chunk_from_world,
-                        Chunk& chunk) const {
+void TiledScene::Add(const std::vector<std::size_t>& tiles,
+                     const Transform& chunk_from_world,
+                     Chunk& chunk) const {
   // Looked up once for each surface, not for each surfel.
   std::map<SurveySurface, std::vector<std::pair<std::size_t, std::size_t>>> surfels;
   std::vector<SurveyTile> read;
@@ -98,15 +121,14 @@ void SurveyedScene::Add(const std::vector<std::size_t>& tiles,
   }
 }
 
-std::optional<double> SurveyedScene::GroundHeight_m(const Eigen::Vector2d& place_m) const {
+std::optional<double> TiledScene::GroundHeight_m(const Eigen::Vector2d& place_m) const {
   const auto found = tile_of_cell_.find(SurveyCellAt(place_m));
   if (found == tile_of_cell_.end()) return std::nullopt;
   return railcast::GroundHeight_m(file_.tiles()[found->second], place_m);
 }
 
-TilesOfChunks AssignTiles(const std::vector<SurveyTile>& tiles,
-                          const Alignment& alignment,
-                          const ChunkGrid& grid) {
+TilesOfChunks TiledScene::AssignTiles(const Alignment& alignment, const ChunkGrid& grid) const {
+  const std::vector<SurveyTile>& tiles = file_.tiles();
   constexpr double kMostSamples = 20'000.0;
   const double step_m = std::max(5.0, alignment.length_m() / kMostSamples);
   std::vector<std::pair<Eigen::Vector2d, int>> axis;
@@ -128,6 +150,23 @@ TilesOfChunks AssignTiles(const std::vector<SurveyTile>& tiles,
         std::max(assigned.half_width_m, std::sqrt(squared_m2(*nearest)) + half_diagonal_m);
   }
   return assigned;
+}
+
+}  // namespace
+
+void AddSurvey(WorldExtras& extras) {
+  extras.open_survey = [](const std::filesystem::path& file, const LabelTable& labels,
+                          const MaterialLibrary& materials) {
+    return std::shared_ptr<const SurveyedScene>(
+        std::make_shared<TiledScene>(file, labels, materials));
+  };
+  extras.survey_materials = [] {
+    std::vector<Material> materials;
+    for (std::uint8_t level = 0; level < kNumSurveyLevels; ++level) {
+      materials.push_back(MaterialOfLevel(level));
+    }
+    return materials;
+  };
 }
 
 }  // namespace railcast

@@ -1,4 +1,4 @@
-#include "core/rail/survey/survey_file.h"
+#include "core/extras/survey/survey_file.h"
 
 #include <gtest/gtest.h>
 
