@@ -1,12 +1,35 @@
 #pragma once
 
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "analysis/report/report.h"
 #include "core/program/program.h"
 
 namespace railcast {
 
-/// What extras add to railcast-analyze.
+/// A source that `stats` was given, and what it consists of.
+struct MeasuredSource {
+  std::filesystem::path source;
+  std::vector<std::filesystem::path> recordings;  ///< In their order; the source itself if one.
+  /// What reports call a source whose recordings they do not list, such as "shard 1/3 of a data
+  /// set"; else empty.
+  std::string kind{};
+  std::string data_hash{};  ///< Of a data set that is no shard.
+  /// Makes the section of a data set that is no shard; else empty.
+  /// @param suffix Follows the keys of section, charts and tables.
+  std::function<Section(const std::string& suffix)> section{};
+};
+
+/// What extras add to railcast-analyze. What this build lacks is null.
 struct AnalysisExtras {
   ExtraCommands commands;
+
+  /// Looks what the folder of a data set consists of.
+  /// @throws InputError with one line if it is unfinished or damaged.
+  MeasuredSource (*open_dataset)(const std::filesystem::path& directory) = nullptr;
 
   /// All that this build has.
   [[nodiscard]] static const AnalysisExtras& Get();

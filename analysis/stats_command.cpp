@@ -6,20 +6,20 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/analysis_extras.h"
 #include "analysis/commands.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
-#include "analysis/stats/dataset_overview.h"
 #include "analysis/stats/statistics.h"
 #include "core/io/cloud/track_fields.h"
 #include "core/io/recording/recording_extras.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/recording/source_choice.h"
+#include "core/io/run/dataset_files.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
-#include "core/io/verify/dataset_verification.h"
 #include "core/program/progress_line.h"
 #include "core/program/version.h"
 #include "railcast/io/recording.h"
@@ -29,32 +29,16 @@
 namespace railcast {
 namespace {
 
-/// A source that `stats` was given, and what it consists of.
-struct MeasuredSource {
-  std::filesystem::path source;
-  std::vector<std::filesystem::path> recordings;  ///< In their order; the source itself if one.
-  /// What reports call a source whose recordings they do not list, such as "shard 1/3 of a data
-  /// set"; else empty.
-  std::string kind{};
-  std::optional<DatasetOverview> overview{};  ///< Of a data set that is no shard.
-};
-
 // Looks what a path leads to: the sequences of a data set, of several sensors or of KITTI's
 // layout, or a single recording.
 // @throws InputError with one line if it is an unfinished or damaged data set.
 MeasuredSource LookAtSource(const std::filesystem::path& source) {
   MeasuredSource whole{.source = source, .recordings = SensorFoldersIn(source)};
   if (!whole.recordings.empty()) return whole;
-  if (IsDataset(source)) {
-    const DatasetContent content = ReadDatasetContent(source);
-    whole.recordings = FinishedSequences(source, content);
-    whole.kind = "data set";
-    if (content.shard.is_whole()) {
-      whole.overview = ReadDatasetOverview(source);
-    } else {
-      whole.kind = "shard " + ShardText(content.shard) + " of a data set";
-    }
-    return whole;
+  if (IsThere(source / kDatasetFile)) {
+    const auto open = AnalysisExtras::Get().open_dataset;
+    if (open == nullptr) throw LacksExtra(ShownPath(source), "card");
+    return open(source);
   }
   // A run of our own is checked against its hashes as a whole.
   if (!IsThere(source / kRunFile)) whole.recordings = KittiSequencesIn(source);
@@ -78,7 +62,7 @@ RecordingInfo InfoOfWhole(const MeasuredSource& whole, const RecordingInfo& firs
   info.has_kitti_labels = first.has_kitti_labels;
   info.origin = first.origin;
   if (info.origin) {
-    info.origin->data_hash = whole.overview ? whole.overview->data_hash : "";
+    info.origin->data_hash = whole.data_hash;
     info.origin->scenario_hash.clear();
   }
   return info;
@@ -186,9 +170,9 @@ std::vector<MeasuredSource> LookAtSources(const std::vector<std::filesystem::pat
 void AddDatasetSections(const std::vector<MeasuredSource>& sources, Report& report) {
   std::vector<Section> sections;
   for (const MeasuredSource& source : sources) {
-    if (!source.overview) continue;
+    if (!source.section) continue;
     const std::string suffix = sections.empty() ? "" : "_" + std::to_string(sections.size() + 1);
-    sections.push_back(MakeDatasetSection(*source.overview, suffix));
+    sections.push_back(source.section(suffix));
   }
   report.sections.insert(report.sections.begin(), sections.begin(), sections.end());
 }

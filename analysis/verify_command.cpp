@@ -7,7 +7,6 @@
 
 #include "analysis/commands.h"
 #include "core/io/run/sensors_record.h"
-#include "core/io/verify/dataset_verification.h"
 #include "core/io/verify/verification.h"
 #include "core/program/progress_line.h"
 
@@ -40,7 +39,6 @@ int Report(const std::filesystem::path& directory, const Verify& verify) {
 
 int RunVerify(const std::filesystem::path& directory) {
   return Report(directory, [&](const auto& show) {
-    if (IsDataset(directory)) return VerifyDataset(directory, show);
     if (IsSurvey(directory)) return VerifySurvey(directory);
     return VerifyFolder(directory, show);
   });

@@ -4,9 +4,9 @@
 
 #include "core/base/error.h"
 #include "core/extras/insert/insert_record.h"
+#include "core/extras/recipe/dataset_record.h"
 #include "core/io/record/read_record.h"
 #include "core/io/recording/sequence_lines.h"
-#include "core/io/run/dataset_record.h"
 #include "core/io/run/run_record.h"
 #include "core/io/verify/frame_clouds.h"
 #include "tests/fuzz/fuzz_target.h"

@@ -4,11 +4,13 @@
 #include "analysis/analysis_extras.h"
 #include "analysis/commands.h"
 #include "analysis/extras/card/dataset_card.h"
+#include "analysis/extras/card/dataset_overview.h"
 #include "analysis/report/formats.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/extras/recipe/dataset_verification.h"
 #include "core/io/run/run_folder.h"
 #include "core/io/write_file.h"
 #include "core/program/version.h"
@@ -74,10 +76,27 @@ void AddCard(ProgramOptions& app, ProgramCommand& command) {
   });
 }
 
+MeasuredSource OpenDataset(const std::filesystem::path& directory) {
+  const DatasetContent content = ReadDatasetContent(directory);
+  MeasuredSource whole{.source = directory, .recordings = FinishedSequences(directory, content)};
+  if (!content.shard.is_whole()) {
+    whole.kind = "shard " + ShardText(content.shard) + " of a data set";
+    return whole;
+  }
+  whole.kind = "data set";
+  const DatasetOverview overview = ReadDatasetOverview(directory);
+  whole.data_hash = overview.data_hash;
+  whole.section = [overview](const std::string& suffix) {
+    return MakeDatasetSection(overview, suffix);
+  };
+  return whole;
+}
+
 }  // namespace
 
 void AddCard(AnalysisExtras& extras) {
   extras.commands["card"] = AddCard;
+  extras.open_dataset = OpenDataset;
 }
 
 }  // namespace railcast

@@ -6,13 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/extras/card/dataset_overview.h"
 #include "analysis/limits/limit_sections.h"
-#include "analysis/stats/dataset_overview.h"
 #include "analysis/stats/statistics.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/extras/recipe/dataset_verification.h"
 #include "core/io/recording/recording_kinds.h"
-#include "core/io/verify/dataset_verification.h"
 #include "railcast/io/recording.h"
 #include "railcast/scenario.h"
 

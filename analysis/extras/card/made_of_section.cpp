@@ -2,12 +2,12 @@
 #include <utility>
 
 #include "analysis/extras/card/dataset_card.h"
-#include "analysis/stats/dataset_overview.h"
+#include "analysis/extras/card/dataset_overview.h"
 #include "core/base/text.h"
+#include "core/extras/recipe/dataset_record.h"
 #include "core/extras/recipe/recipe.h"
 #include "core/io/record/read_record.h"
 #include "core/io/run/dataset_files.h"
-#include "core/io/run/dataset_record.h"
 
 namespace railcast {
 namespace {

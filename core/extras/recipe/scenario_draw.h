@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "core/extras/recipe/dataset_record.h"
 #include "core/extras/recipe/distribution.h"
 #include "core/extras/recipe/recipe.h"
 #include "core/extras/recipe/recipe_files.h"
 #include "core/extras/recipe/split_plan.h"
-#include "core/io/run/dataset_record.h"
 #include "railcast/scenario.h"
 
 namespace railcast {

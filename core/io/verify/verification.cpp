@@ -30,8 +30,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Files by which the folders of extras' commands are known, each with the extra.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kFilesOfExtras = {
-    {{kInsertFile, "insert"}, {"convert.jsonl", "insert"}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kFilesOfExtras = {
+    {{kDatasetFile, "recipe"}, {kInsertFile, "insert"}, {"convert.jsonl", "insert"}}};
 
 /// Files that a manifest always names.
 std::vector<std::string> NeededFiles(const RunRecord& run) {

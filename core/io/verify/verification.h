@@ -8,6 +8,8 @@
 
 namespace railcast {
 
+struct MergedFolder;
+
 /// Result of verifying a sequence directory.
 struct Verification {
   /// A file that does not belong there, which is a fault, too.
@@ -31,6 +33,12 @@ struct Verification {
 /// @throws InputError if the directory was not made by railcast-generate sequence.
 [[nodiscard]] Verification VerifySequence(const std::filesystem::path& directory,
                                           const std::function<void(double)>& on_progress);
+
+/// Compares the merged clouds of several sensors with merged.jsonl, this with sensors.json, and
+/// looks for files that neither names.
+/// @param on_progress Called from time to time with the completed share.
+[[nodiscard]] Verification VerifyMerged(const MergedFolder& merged,
+                                        const std::function<void(double)>& on_progress);
 
 /// Verifies what VerifySequence() does, or the folder of an extra's command.
 /// @param on_progress Called from time to time with the completed share.

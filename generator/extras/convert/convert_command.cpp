@@ -5,9 +5,9 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/extras/recipe/dataset_verification.h"
 #include "core/io/recording/source_choice.h"
 #include "core/io/run/run_folder.h"
-#include "core/io/verify/dataset_verification.h"
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "core/program/stop_signals.h"

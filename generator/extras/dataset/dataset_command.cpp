@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "core/base/text.h"
+#include "core/extras/recipe/dataset_record.h"
 #include "core/extras/recipe/recipe.h"
 #include "core/io/record/read_record.h"
 #include "core/io/run/dataset_files.h"
-#include "core/io/run/dataset_record.h"
 #include "core/io/run/run_folder.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/io/write_file.h"

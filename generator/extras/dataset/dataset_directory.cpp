@@ -2,12 +2,12 @@
 
 #include <utility>
 
+#include "core/extras/recipe/dataset_verification.h"
 #include "core/extras/recipe/scenario_lines.h"
 #include "core/io/content_hash.h"
 #include "core/io/record/record_text.h"
 #include "core/io/run/dataset_files.h"
 #include "core/io/run/folder_identity.h"
-#include "core/io/verify/dataset_verification.h"
 #include "core/io/write_file.h"
 
 namespace railcast {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "core/extras/recipe/dataset_record.h"
+#include "core/extras/recipe/dataset_report_record.h"
 #include "core/extras/recipe/recipe.h"
 #include "core/extras/recipe/split_quota.h"
-#include "core/io/run/dataset_record.h"
-#include "core/io/run/dataset_report_record.h"
 #include "core/scenario/json_text.h"
 #include "generator/extras/dataset/indexed_scenario.h"
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/extras/recipe/dataset_record.h"
 #include "core/io/recording/line_reader.h"
-#include "core/io/run/dataset_record.h"
 #include "core/io/run/frame_record.h"
 
 namespace railcast {

@@ -8,12 +8,12 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/extras/recipe/dataset_verification.h"
 #include "core/extras/recipe/scenario_lines.h"
 #include "core/io/content_hash.h"
 #include "core/io/record/read_record.h"
 #include "core/io/record/record_text.h"
 #include "core/io/run/dataset_files.h"
-#include "core/io/verify/dataset_verification.h"
 #include "core/io/write_file.h"
 #include "generator/extras/dataset/dataset_directory.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/io/run/dataset_record.h"
+#include "core/extras/recipe/dataset_record.h"
 
 namespace railcast {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <tuple>
 
+#include "core/extras/recipe/dataset_verification.h"
 #include "core/io/record/record_text.h"
 #include "core/io/run/frame_record.h"
-#include "core/io/verify/dataset_verification.h"
 #include "core/io/verify/verification.h"
 #include "core/io/write_file.h"
 #include "tests/core/io/message_of.h"

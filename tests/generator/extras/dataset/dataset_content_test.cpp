@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/verify/dataset_verification.h"
+#include "core/extras/recipe/dataset_verification.h"
 #include "core/io/write_file.h"
 #include "generator/extras/dataset/dataset_report.h"
 #include "generator/extras/dataset/run_dataset.h"

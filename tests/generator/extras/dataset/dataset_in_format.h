@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/verify/dataset_verification.h"
+#include "core/extras/recipe/dataset_verification.h"
 #include "generator/extras/dataset/run_dataset.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"

@@ -1,4 +1,4 @@
-#include "core/io/verify/dataset_verification.h"
+#include "core/extras/recipe/dataset_verification.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -9,9 +9,9 @@
 #include <string>
 
 #include "core/base/text.h"
+#include "core/extras/recipe/dataset_verification.h"
 #include "core/io/record/record_text.h"
 #include "core/io/run/scenario_identity.h"
-#include "core/io/verify/dataset_verification.h"
 #include "generator/extras/dataset/inserted_scenarios.h"
 #include "generator/extras/dataset/run_dataset.h"
 #include "generator/extras/insert/plan/recorded_run.h"

@@ -46,12 +46,6 @@ struct DatasetContent {
 /// @throws InputError if dataset.json cannot be read.
 [[nodiscard]] Verification VerifyDatasetFiles(const std::filesystem::path& directory);
 
-/// Compares the merged clouds of several sensors with merged.jsonl, this with sensors.json, and
-/// looks for files that neither names.
-/// @param on_progress Called from time to time with the completed share.
-[[nodiscard]] Verification VerifyMerged(const MergedFolder& merged,
-                                        const std::function<void(double)>& on_progress);
-
 /// Compares the folder of a scenario of a data set with its line of scenarios.jsonl: verifies its
 /// sequences, compares them with what the line says of them, and looks for files that belong to
 /// none.

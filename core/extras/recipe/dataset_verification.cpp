@@ -1,4 +1,4 @@
-#include "core/io/verify/dataset_verification.h"
+#include "core/extras/recipe/dataset_verification.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -10,12 +10,13 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/extras/recipe/dataset_record.h"
 #include "core/io/content_hash.h"
 #include "core/io/record/read_record.h"
 #include "core/io/recording/line_reader.h"
+#include "core/io/recording/recording_extras.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/run/dataset_files.h"
-#include "core/io/run/dataset_record.h"
 #include "core/io/run/run_record.h"
 #include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
@@ -156,6 +157,10 @@ Verification VerifyDataset(const fs::path& directory,
 
 Verification VerifyDatasetFiles(const fs::path& directory) {
   return DatasetVerifier(directory, [](double) {}).RunOnOwnFiles();
+}
+
+void AddRecipe(RecordingExtras& extras) {
+  extras.verify["recipe"] = VerifyDataset;
 }
 
 }  // namespace railcast

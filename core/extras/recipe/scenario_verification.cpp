@@ -1,4 +1,4 @@
-#include "core/io/verify/dataset_verification.h"
+#include "core/extras/recipe/dataset_verification.h"
 
 #include <algorithm>
 #include <map>
@@ -10,12 +10,12 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/extras/recipe/dataset_record.h"
 #include "core/io/content_hash.h"
 #include "core/io/record/read_record.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/run/dataset_files.h"
-#include "core/io/run/dataset_record.h"
 #include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/verify/findings.h"
@@ -25,44 +25,6 @@ namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
-
-class MergedVerifier : private Findings {
- public:
-  explicit MergedVerifier(const MergedFolder& merged) : merged_(merged) {}
-
-  Verification Run(const std::function<void(double)>& on_progress) {
-    for (const KnownFile& file : merged_.files) {
-      CheckFile(file, [&] { return ReadHashedFile(merged_.folder, file, kSensorsFile); });
-    }
-    Try([&] { CheckClouds(on_progress); });
-    FindOthers(merged_.folder, "is named neither in sensors.json nor in merged.jsonl");
-    return Take();
-  }
-
- private:
-  template <typename Read>
-  void CheckFile(const KnownFile& file, const Read& read) {
-    known_.insert(file.name);
-    Try([&] {
-      result_.num_bytes += read().size();
-      ++result_.num_files;
-    });
-  }
-
-  void CheckClouds(const std::function<void(double)>& on_progress) {
-    const auto num_lines = static_cast<double>(CountLines(merged_.folder / kMergedFile));
-    LineReader lines(merged_.folder / kMergedFile);
-    for (; const auto line = lines.Next(); ++result_.num_frames) {
-      on_progress(static_cast<double>(result_.num_frames) / num_lines);
-      const auto file = Attempt(
-          "", faults_, [&] { return ReadRecordLine<MergedRecord>(line->text, line->place).file; });
-      if (!file) continue;
-      CheckFile(*file, [&] { return ReadKnownFile(merged_.folder, *file, kMergedFile); });
-    }
-  }
-
-  const MergedFolder& merged_;
-};
 
 class ScenarioVerifier : private Findings {
  public:
@@ -167,11 +129,6 @@ class ScenarioVerifier : private Findings {
 };
 
 }  // namespace
-
-Verification VerifyMerged(const MergedFolder& merged,
-                          const std::function<void(double)>& on_progress) {
-  return MergedVerifier(merged).Run(on_progress);
-}
 
 Verification VerifyScenario(const fs::path& dataset,
                             std::uint32_t scenario,

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/stats/dataset_overview.h"
+#include "analysis/extras/card/dataset_overview.h"
 #include "analysis/stats/statistics.h"
 #include "tests/analysis/recorded_frames.h"
 

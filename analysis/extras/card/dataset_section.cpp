@@ -1,5 +1,5 @@
 #include "analysis/estimate/estimate.h"
-#include "analysis/stats/dataset_overview.h"
+#include "analysis/extras/card/dataset_overview.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "analysis/stats/dataset_overview.h"
+#include "analysis/extras/card/dataset_overview.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "core/io/run/dataset_report_record.h"
+#include "core/extras/recipe/dataset_report_record.h"
 
 #include <numeric>
 

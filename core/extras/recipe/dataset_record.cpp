@@ -1,4 +1,4 @@
-#include "core/io/run/dataset_record.h"
+#include "core/extras/recipe/dataset_record.h"
 
 #include "core/base/text.h"
 #include "core/io/run/dataset_files.h"

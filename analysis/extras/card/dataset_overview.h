@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "analysis/report/report.h"
-#include "core/io/run/dataset_report_record.h"
+#include "core/extras/recipe/dataset_report_record.h"
 
 namespace railcast {
 

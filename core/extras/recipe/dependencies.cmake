@@ -1,0 +1,1 @@
+# None but those of the core.
