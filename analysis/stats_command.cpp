@@ -35,11 +35,8 @@ namespace {
 MeasuredSource LookAtSource(const std::filesystem::path& source) {
   MeasuredSource whole{.source = source, .recordings = SensorFoldersIn(source)};
   if (!whole.recordings.empty()) return whole;
-  if (IsThere(source / kDatasetFile)) {
-    const auto open = AnalysisExtras::Get().open_dataset;
-    if (open == nullptr) throw LacksExtra(ShownPath(source), "card");
-    return open(source);
-  }
+  if (IsThere(source / kDatasetFile))
+    return NeedExtra(AnalysisExtras::Get().open_dataset, source, "card")(source);
   // A run of our own is checked against its hashes as a whole.
   if (!IsThere(source / kRunFile)) whole.recordings = KittiSequencesIn(source);
   if (whole.recordings.empty()) {

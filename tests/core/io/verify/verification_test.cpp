@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/io/content_hash.h"
@@ -319,6 +320,16 @@ TEST(Verification, RefusesWhatIsNoSequence) {
   const TemporaryDirectory directory;
   EXPECT_EQ(MessageOf([&] { (void)FaultsOf(directory.path()); }),
             (directory.path() / "run.json").string() + ": no such file or directory");
+}
+
+TEST(VerifyFolder, NamesTheExtraThatAFolderIsOf) {
+  for (const auto& [file, extra] : std::vector<std::pair<std::string, std::string>>{
+           {"dataset.json", "recipe"}, {"insert.jsonl", "insert"}, {"convert.jsonl", "insert"}}) {
+    const TemporaryDirectory directory;
+    WriteFileWhole(directory.path() / file, "");
+    EXPECT_THAT(MessageOf([&] { (void)VerifyFolder(directory.path(), [](double) {}); }),
+                HasSubstr(file + ": needs the extra " + extra + ", which is not installed"));
+  }
 }
 
 }  // namespace
