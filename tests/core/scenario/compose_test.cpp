@@ -42,6 +42,17 @@ TEST(CheckScenario, ReportsThePatternAndTheWorldTogether) {
   EXPECT_TRUE(faults[2].starts_with(file.string() + ": /world/alignment/course/sections/0/s_m: "));
 }
 
+TEST(CheckScenario, NamesTheExtraThatASurveyNeeds) {
+  const TemporaryFolder folder;
+  const auto file = folder.Write("a.json", R"({"version": 1, "file": ")" +
+                                               (ScenariosDir() / "minimal.json").string() +
+                                               R"(", "world": {"survey": "scene.survey"}})");
+  const std::vector<std::string> faults = CheckScenario(file);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_TRUE(faults[0].starts_with(file.string() + ": /world/survey: ")) << faults[0];
+  EXPECT_NE(faults[0].find("scene.survey: needs the extra survey"), std::string::npos);
+}
+
 TEST(MakeSimulator, PutsTheSensorWhereTheMountSays) {
   ScenarioSpec spec = ReadScenario(ScenariosDir() / "minimal.json");
   spec.lidar.mount.position_m = {2.0, 0.5, 3.0};

@@ -13,6 +13,7 @@
 
 #include "core/io/content_hash.h"
 #include "core/io/run/run_record.h"
+#include "railcast/io/recording.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/damaged_run.h"
 #include "tests/generator/example_run.h"
@@ -329,6 +330,16 @@ TEST(VerifyFolder, NamesTheExtraThatAFolderIsOf) {
     WriteFileWhole(directory.path() / file, "");
     EXPECT_THAT(MessageOf([&] { (void)VerifyFolder(directory.path(), [](double) {}); }),
                 HasSubstr(file + ": needs the extra " + extra + ", which is not installed"));
+  }
+}
+
+TEST(OpenRecording, NamesTheExtraThatAnInsertionNeeds) {
+  const TemporaryDirectory directory;
+  WriteFileWhole(directory.path() / "insert.jsonl", "");
+  std::filesystem::create_directory(directory.path() / "recording");
+  for (const std::string folder : {"", "recording"}) {
+    EXPECT_THAT(MessageOf([&] { (void)OpenRecording(directory.path() / folder); }),
+                HasSubstr("needs the extra insert, which is not installed"));
   }
 }
 
