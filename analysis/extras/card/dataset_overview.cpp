@@ -5,7 +5,6 @@
 #include "core/extras/recipe/dataset_record.h"
 #include "core/io/record/read_record.h"
 #include "core/io/recording/sequence_check.h"
-#include "core/io/run/dataset_files.h"
 #include "core/io/write_file.h"
 
 namespace railcast {

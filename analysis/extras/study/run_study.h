@@ -11,7 +11,7 @@
 #include "analysis/extras/study/study_directory.h"
 #include "analysis/extras/study/study_spec.h"
 #include "core/extras/recipe/recipe.h"
-#include "core/io/run/dataset_files.h"
+#include "core/extras/recipe/shard.h"
 #include "core/scenario/json_text.h"
 
 namespace railcast {

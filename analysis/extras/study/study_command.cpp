@@ -17,7 +17,7 @@
 #include "core/base/input_file.h"
 #include "core/certify/certifier.h"
 #include "core/extras/recipe/scenario_draw.h"
-#include "core/io/run/dataset_files.h"
+#include "core/extras/recipe/shard.h"
 #include "core/program/progress_line.h"
 #include "core/program/stop_signals.h"
 #include "core/program/version.h"

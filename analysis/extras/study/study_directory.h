@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analysis/extras/study/approach_record.h"
-#include "core/io/run/dataset_files.h"
+#include "core/extras/recipe/shard.h"
 #include "core/io/run/run_folder.h"
 #include "core/scenario/value_type.h"
 

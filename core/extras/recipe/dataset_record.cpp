@@ -1,7 +1,7 @@
 #include "core/extras/recipe/dataset_record.h"
 
 #include "core/base/text.h"
-#include "core/io/run/dataset_files.h"
+#include "core/extras/recipe/shard.h"
 #include "core/scenario/archive.h"
 
 namespace railcast {

@@ -13,7 +13,14 @@
 
 namespace railcast {
 
-// The files of a data set (docs/dataset.md).
+// The files of a data set (docs/dataset.md), besides those of core/io/run/dataset_files.h.
+
+inline constexpr std::string_view kRecipeFile = "recipe.json";
+inline constexpr std::string_view kScenariosFile = "scenarios.jsonl";
+inline constexpr std::string_view kIndexFile = "index.jsonl";
+inline constexpr std::string_view kIndexDatabaseFile = "index.sqlite";  ///< Examples make it.
+inline constexpr std::string_view kReportFile = "report.json";
+inline constexpr std::string_view kDatasetManifestFile = "manifest.json";
 
 /// The content of dataset.json: everything that the bytes of a data set depend on.
 struct DatasetRecord {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/extras/recipe/shard.h"
 #include "core/io/recording/line_reader.h"
-#include "core/io/run/dataset_files.h"
 #include "core/io/run/sensors_record.h"
 #include "core/io/verify/verification.h"
 

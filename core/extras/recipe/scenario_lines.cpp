@@ -7,8 +7,8 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/extras/recipe/shard.h"
 #include "core/io/content_hash.h"
-#include "core/io/run/dataset_files.h"
 
 namespace railcast {
 

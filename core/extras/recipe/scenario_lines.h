@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
+#include "core/extras/recipe/shard.h"
 #include "core/io/recording/line_reader.h"
-#include "core/io/run/dataset_files.h"
 
 namespace railcast {
 

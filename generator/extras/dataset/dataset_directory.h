@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/extras/recipe/dataset_record.h"
+#include "core/extras/recipe/shard.h"
 #include "core/extras/recipe/split_quota.h"
-#include "core/io/run/dataset_files.h"
 #include "core/io/run/run_folder.h"
 #include "core/scenario/json_text.h"
 

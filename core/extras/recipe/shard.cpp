@@ -1,4 +1,4 @@
-#include "core/io/run/dataset_files.h"
+#include "core/extras/recipe/shard.h"
 
 #include "core/base/text.h"
 
