@@ -10,6 +10,7 @@
 
 #include "analysis/report/cell_text.h"
 #include "core/base/text.h"
+#include "core/certify/weighted_shares.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/run/frame_record.h"
 
