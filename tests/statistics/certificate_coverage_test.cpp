@@ -116,7 +116,7 @@ constexpr std::optional<CertifiedFigure> CertifiedPart::*kFigures[] = {
     &CertifiedPart::range_p95_m};
 
 /// What became of the drawings of a case.
-struct Coverage {
+struct IntervalCoverage {
   std::size_t num_firings{};
   RunCertificate truth;
   double mean_missed{};       ///< Over the drawings: without a bias, the true share.
@@ -132,9 +132,9 @@ bool Covers(const std::optional<CertifiedFigure>& figure, double truth) {
          (!figure->high || truth <= *figure->high + kRoundOff);
 }
 
-Coverage CoverageOf(const Case& of, double cost_share, double num) {
+IntervalCoverage CoverageOf(const Case& of, double cost_share, double num) {
   const KnownFrames known = MakeKnownFrames(of, cost_share);
-  Coverage coverage{.truth = TruthOf(known)};
+  IntervalCoverage coverage{.truth = TruthOf(known)};
   coverage.num_firings = coverage.truth.drawn;
   int num_parts = 0;
   int num_covered_parts = 0;
@@ -165,7 +165,7 @@ constexpr double kPopulation = 40.0;
 constexpr double kNumDrawn = 300.0;
 
 TEST(CertificateCoverage, IsThatOfIntervalsOf95PercentOnTheDemosFrames) {
-  const Coverage coverage =
+  const IntervalCoverage coverage =
       CoverageOf({"st_gallen_approach", "vir2rail", "surface", 6}, kPopulation, kNumDrawn);
   ASSERT_GT(coverage.num_firings, 4000U);
   // Four standard deviations of 400 drawings on either side of what errors.md asks, 93 to 97 %.
@@ -201,7 +201,7 @@ TEST(CertificateCoverage, IsShownOfFourScenesAndThreeSensors) {
   for (const char* scene : scenes) {
     for (const char* sensor : sensors) {
       const char* const rung = rungs[num_cases % 3];
-      const Coverage coverage =
+      const IntervalCoverage coverage =
           CoverageOf({scene, sensor, rung, 17},
                      std::string(rung) == "footprint" ? 4.0 : kPopulation, kNumDrawn);
       rows << "| " << scene << " | " << sensor << " | " << rung << " | " << coverage.num_firings

@@ -32,7 +32,9 @@ FinishedStudy MakeStudyIn(const std::filesystem::path& folder, const nlohmann::j
   const ScenarioDrawer drawer(read);
   StudyChoices choices{.directory = folder / "made"};
   const StudyResult result = RunStudy(spec, drawer, choices, NoStudyHooks());
-  KeepFiles(spec, drawer, {}, SampleOf(ObservationsOf(result.approaches)), choices.directory);
+  KeepFiles(
+      spec, [&](std::uint32_t number) { return drawer.Draw(number); }, {},
+      SampleOf(ObservationsOf(result.approaches)), choices.directory);
   return ReadFinishedStudy(choices.directory);
 }
 

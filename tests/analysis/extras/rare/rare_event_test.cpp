@@ -49,17 +49,17 @@ RareExperiment ToyExperiment() {
 }
 
 /// What came of many estimates with different seeds.
-struct Coverage {
+struct RareCoverage {
   std::uint32_t num_known = 0;
   std::uint32_t num_covering = 0;
   double mean = 0.0;
 };
 
-Coverage CoverageOf(const std::vector<RareFactor>& factors,
-                    RareSettings settings,
-                    const RareExperiment& experiment,
-                    double probability) {
-  Coverage coverage;
+RareCoverage CoverageOf(const std::vector<RareFactor>& factors,
+                        RareSettings settings,
+                        const RareExperiment& experiment,
+                        double probability) {
+  RareCoverage coverage;
   for (std::uint32_t i = 0; i < kNumEstimates; ++i) {
     settings.seed = 1000 + i * 1'000'003ULL;
     const RareFigure figure = RunRareEvent(factors, settings, experiment)->figure;
@@ -77,7 +77,7 @@ Coverage CoverageOf(const std::vector<RareFactor>& factors,
 TEST(RareEvent, CoversAProbabilityOfTwoModesInTenDimensions) {
   const double probability = ToyProbability();
   EXPECT_NEAR(probability, 1e-4, 1e-6);
-  const Coverage coverage =
+  const RareCoverage coverage =
       CoverageOf(std::vector<RareFactor>(10), {.num_per_stage = 600, .has_pairs = true},
                  ToyExperiment(), probability);
   EXPECT_GE(coverage.num_known, 9 * kNumEstimates / 10);
@@ -127,7 +127,7 @@ TEST(RareEvent, CoversTheProbabilityOfABoxInFog) {
     for (const RareTrial& trial : trials) scores.push_back({FogScore(trial.point)});
     return std::optional(scores);
   };
-  const Coverage coverage =
+  const RareCoverage coverage =
       CoverageOf(factors, {.num_per_stage = 200}, experiment, FogProbability());
   EXPECT_GE(coverage.num_known, 9 * kNumEstimates / 10);
   EXPECT_GE(coverage.num_covering, 0.93 * coverage.num_known);

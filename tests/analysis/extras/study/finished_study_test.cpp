@@ -24,7 +24,9 @@ void MakeKeptStudy(const std::filesystem::path& folder, const Shard& shard) {
   StudyChoices choices{.directory = folder, .shard = shard};
   const StudyResult result = RunStudy(spec, drawer, choices, NoStudyHooks());
   const std::vector<Observation> observations = ObservationsOf(result.approaches);
-  KeepFiles(spec, drawer, {}, SampleOf(observations), folder);
+  KeepFiles(
+      spec, [&](std::uint32_t number) { return drawer.Draw(number); }, {}, SampleOf(observations),
+      folder);
 }
 
 class FinishedStudies : public testing::Test {

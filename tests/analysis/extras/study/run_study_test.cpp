@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/extras/study/approach_scan.h"
+#include "core/base/text.h"
 #include "core/extras/recipe/scenario_draw.h"
 #include "core/io/run/object_survey.h"
 #include "railcast/simulator.h"
