@@ -108,7 +108,7 @@ std::optional<RunCertificate> CertificateOf(const std::vector<RecordingInfo>& so
   }
   CertificateSums sums(std::move(spec));
   for (const RecordingInfo* info : certified) AddFrames(info->source, sums);
-  return sums.Result(sources.front().labels);
+  return sums.Result(certified.front()->labels);
 }
 
 Section MakeCertificateSection(const RunCertificate& certificate) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iomanip>
 #include <iterator>
+#include <numeric>
 #include <set>
 #include <sstream>
 
@@ -192,10 +193,15 @@ CertifiedRung CertificateSums::RungOf(std::size_t i) const {
     numbers.missed[k] = counts.missed;
     numbers.wrong[k] = counts.wrong;
   }
+  const auto share_of = [&](const std::vector<double>& of) -> std::optional<CertifiedFigure> {
+    const std::vector<double> among = numbers.Sum(of);
+    if (std::accumulate(among.begin(), among.end(), 0.0) < CertifiedPart::kLeastEchoes) return {};
+    return shares_.Share(of, among);
+  };
   return {.name = spec_.rungs[i].name,
           .cost = spec_.rungs[i].cost,
-          .missed = shares_.Share(numbers.missed, numbers.Sum(numbers.missed)),
-          .wrong = shares_.Share(numbers.wrong, numbers.Sum(numbers.wrong))};
+          .missed = share_of(numbers.missed),
+          .wrong = share_of(numbers.wrong)};
 }
 
 RunCertificate CertificateSums::Result(const LabelTable& labels) const {
@@ -244,8 +250,7 @@ std::string CertificateText(const RunCertificate& certificate) {
   const CertifiedPart& all = certificate.all;
   std::string text = "certificate: ";
   if (all.missed && all.wrong) {
-    text +=
-        ShareText(*all.missed) + " of the echoes missed, " + ShareText(*all.wrong) + " false";
+    text += ShareText(*all.missed) + " of the echoes missed, " + ShareText(*all.wrong) + " false";
   } else {
     text += "too few echoes were drawn to tell";
   }

@@ -21,6 +21,10 @@ EffectSet EffectsAt(Fidelity rung, const ScenarioSpec& scenario) {
   for (const auto& [name, is_on] : scenario.effects) {
     const Effect* const effect = FindEffect(name);
     if (effect == nullptr) continue;
+    // What the reference is made of is no choice of the scenario: it would be compared with itself.
+    const bool is_of_reference = effect->is_on == &EffectSet::dense_footprint ||
+                                 effect->is_on == &EffectSet::sampled_waveform;
+    if (rung == Fidelity::kReference && is_of_reference) continue;
     EffectSet switched = effects;
     switched.*effect->is_on = is_on;
     if (!ConflictIn(switched)) effects = switched;

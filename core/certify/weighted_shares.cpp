@@ -124,6 +124,8 @@ double WeightedShares::EffectiveNumber(double share,
   const std::vector<Group> groups = Groups();
   const std::vector<double> weights = Weights(groups);
   // Of items that are all alike, the scatter of the weights is what makes them count for fewer.
+  // Strata are not trusted to narrow the interval beyond that: where few items are wrong, those in
+  // which none was drawn seem to have no scatter at all.
   double total = 0.0;
   double squares = 0.0;
   std::vector<double> residuals(of.size());
@@ -134,7 +136,7 @@ double WeightedShares::EffectiveNumber(double share,
   }
   const double alike = total * total / squares;
   const double variance = VarianceOf(residuals, groups) / (total * total);
-  return variance > 0.0 ? share * (1.0 - share) / variance : alike;
+  return variance > 0.0 ? std::min(share * (1.0 - share) / variance, alike) : alike;
 }
 
 std::optional<CertifiedFigure> WeightedShares::Share(const std::vector<double>& of,
@@ -170,12 +172,7 @@ std::optional<CertifiedFigure> WeightedShares::Quantile(
     all[firing] += 1.0;
     if (value <= quantile) below[firing] += 1.0;
   }
-  // Of a high quantile few values lie beyond it, so that their scatter is not known well: strata
-  // are not trusted to narrow the interval.
-  double squares = 0.0;
-  for (const auto& [firing, value] : values) squares += weights[firing] * weights[firing];
-  const double num = std::min(EffectiveNumber(share, below, all), total * total / squares);
-  const CertifiedFigure of_share = WilsonInterval(share, num);
+  const CertifiedFigure of_share = WilsonInterval(share, EffectiveNumber(share, below, all));
   CertifiedFigure figure{quantile, at(of_share.low), {}};
   // Beyond the largest value nothing was drawn, but there may be something.
   if (*of_share.high * total <= total - weights[values.back().first]) {

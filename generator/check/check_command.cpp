@@ -30,6 +30,11 @@ struct CheckOptions {
   bool is_verbose = false;
 };
 
+struct ReportChoices {
+  bool is_verbose = false;
+  std::optional<double> cost_share{};  ///< Of a certificate; absent = none is asked for.
+};
+
 /// The report on a scenario with one sensor.
 class Report {
  public:
@@ -116,7 +121,7 @@ CheckedFrames FramesToCheck(const ScenarioSpec& scenario, const RailWorld& world
 void PrintReport(const ScenarioSpec& scenario,
                  const std::shared_ptr<const RailWorld>& world,
                  const CheckedFrames& frames,
-                 const CheckOptions& options) {
+                 const ReportChoices& choices_of_report) {
   const std::vector<std::string> sensors = SensorNames(scenario);
   std::string choices;
   std::string certificates;
@@ -124,12 +129,14 @@ void PrintReport(const ScenarioSpec& scenario,
     const ScenarioSpec picked = PickSensor(scenario, sensor);
     const Report report(picked, world);
     std::cout << ShownLines(report.Sensor());
-    if (sensor == sensors.front()) std::cout << ShownLines(report.Line(options.is_verbose));
+    if (sensor == sensors.front())
+      std::cout << ShownLines(report.Line(choices_of_report.is_verbose));
     std::cout << ShownLines(report.WhatItSees());
     if (sensors.size() > 1) choices += ReportLine("sensor", sensor);
     choices += report.Choice();
-    const auto cost_share = CertifiedShareOf(options.certify);
-    if (cost_share) certificates += report.Certificate(*cost_share);
+    if (choices_of_report.cost_share) {
+      certificates += report.Certificate(*choices_of_report.cost_share);
+    }
   }
   std::cout << ShownLines(ObjectsText(*world, LabelTable(scenario.labels)))
             << ShownLines(MeshesText(scenario.world.objects, LabelTable(scenario.labels),
@@ -146,6 +153,10 @@ void PrintReport(const ScenarioSpec& scenario,
 }
 
 int RunCheck(const CheckOptions& options) {
+  const auto cost_share = CertifiedShareOf(options.certify);
+  if (cost_share && options.resolved == "-") {
+    throw InputError("--certify: must be without --resolved -, which has no other output");
+  }
   ErrorList faults;
   for (const std::string& fault : CheckScenario(options.scenario)) faults.AddLine(fault);
   faults.ThrowIfAny();
@@ -158,7 +169,7 @@ int RunCheck(const CheckOptions& options) {
     return kExitSuccess;
   }
   if (options.resolved) WriteFileWhole(*options.resolved, ResolvedScenarioJson(scenario));
-  PrintReport(scenario, world, frames, options);
+  PrintReport(scenario, world, frames, {options.is_verbose, cost_share});
   if (options.resolved)
     std::cout << "resolved scenario in " << ShownPath(*options.resolved) << "\n";
   return kExitSuccess;

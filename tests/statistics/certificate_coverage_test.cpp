@@ -160,7 +160,7 @@ IntervalCoverage CoverageOf(const Case& of, double cost_share, double num) {
   return coverage;
 }
 
-// About 1,500 firings of each frame are the population, and 300 of all are drawn.
+// Thousands of firings of each frame are the population, and 300 of all are drawn.
 constexpr double kPopulation = 40.0;
 constexpr double kNumDrawn = 300.0;
 
@@ -168,11 +168,15 @@ TEST(CertificateCoverage, IsThatOfIntervalsOf95PercentOnTheDemosFrames) {
   const IntervalCoverage coverage =
       CoverageOf({"st_gallen_approach", "vir2rail", "surface", 6}, kPopulation, kNumDrawn);
   ASSERT_GT(coverage.num_firings, 4000U);
-  // Four standard deviations of 400 drawings on either side of what errors.md asks, 93 to 97 %.
+  // 93 to 97 % and two standard deviations of 400 drawings on either side; intervals of quantiles
+  // may be wider.
   constexpr double kSigma = 0.011;
   for (std::size_t k = 0; k < std::size(kFigures); ++k) {
     EXPECT_GT(coverage.covered[k], 0.93 - 2.0 * kSigma) << k;
+    EXPECT_LT(coverage.covered[k], k < 2 ? 0.97 + 2.0 * kSigma : 0.995) << k;
   }
+  // That of 300 firings of which a sixth misses, at random, is 0.042.
+  EXPECT_LT(coverage.half_width, 0.06);
   EXPECT_GT(coverage.covered_in_parts, 0.93 - 2.0 * kSigma);
   // The mean of the drawings is the truth: within four of its own standard deviations.
   EXPECT_NEAR(coverage.mean_missed, coverage.truth.all.missed->value,
@@ -222,7 +226,7 @@ TEST(CertificateCoverage, IsShownOfFourScenesAndThreeSensors) {
   std::ofstream(RAILCAST_SOURCE_DIR "/docs/results/certificate.md")
       << R"(# Certificates: how often their intervals hold
 
-Of each case, some 1,500 firings of each of 17 frames were made anew on rung `reference`, so that the numerical error of
+Of each case, 4,000 to 28,000 firings of each of 17 frames were made anew on rung `reference`, so that the numerical error of
 these firings is known. From them, certificates of about 300 firings were drawn )"
       << kNumDrawings << R"( times. The table has the share of
 these whose 95 % interval holds the true value: 93 to 97 % is what was asked for, and 1.1 % is the standard deviation of

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
@@ -123,13 +122,20 @@ std::string UsualCertify(const Recipe& recipe, const DatasetChoices& choices) {
   const std::filesystem::path file = choices.directory / kDatasetFile;
   if (!std::filesystem::exists(file)) return "1%";
   const auto record = ReadRecord<DatasetRecord>(ReadFileWhole(file), ShownPath(file));
-  return record.certify ? NumberText(std::round(1e10 * *record.certify) / 1e8) + "%" : "off";
+  if (!record.certify) return "off";
+  // The shortest percentage that is the same share again.
+  for (int num_digits = 1;; ++num_digits) {
+    std::ostringstream percent;
+    percent << std::setprecision(num_digits) << 100.0 * *record.certify << '%';
+    if (num_digits == 17 || CertifiedShareOf(percent.str()) == record.certify) return percent.str();
+  }
 }
 
 int RunDatasetCommand(DatasetOptions options) {
   const Recipe recipe = ReadRecipe(options.recipe, ReadRecordedBase);
   if (recipe.has_plans() && !options.has_format) options.choices.format = "same";
   if (!options.has_certify) options.choices.certify = UsualCertify(recipe, options.choices);
+  static_cast<void>(CertifiedShareOf(options.choices.certify));
   if (options.has_scenarios_only) return WriteScenarios(recipe, options);
   // The folder can be continued however the program ends.
   CatchStopSignals();
