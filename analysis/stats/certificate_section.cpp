@@ -69,6 +69,18 @@ Table RungsTable(const RunCertificate& certificate) {
   return table;
 }
 
+// The runs that a source has: itself, or those below a data set or a run of several sensors.
+std::vector<std::filesystem::path> RunsOf(const std::filesystem::path& source) {
+  if (std::filesystem::exists(source / kRunFile)) return {source};
+  std::vector<std::filesystem::path> runs;
+  if (!std::filesystem::is_directory(source)) return runs;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(source)) {
+    if (entry.path().filename() == kFramesFile) runs.push_back(entry.path().parent_path());
+  }
+  std::ranges::sort(runs);
+  return runs;
+}
+
 // Adds up the frames of a run.
 void AddFrames(const std::filesystem::path& run, CertificateSums& sums) {
   const std::filesystem::path file = run / kFramesFile;
@@ -84,14 +96,18 @@ void AddFrames(const std::filesystem::path& run, CertificateSums& sums) {
 }  // namespace
 
 std::optional<RunCertificate> CertificateOf(const std::vector<RecordingInfo>& sources) {
-  std::vector<const RecordingInfo*> certified;
+  std::vector<std::filesystem::path> certified;
   std::vector<RunCertificate> certificates;
+  LabelTable labels;
   for (const RecordingInfo& info : sources) {
-    if (!info.origin || !info.origin->is_finished) continue;
-    const SequenceSummary summary = ReadSequenceSummary(info.source);
-    if (!summary.manifest || !summary.manifest->certificate) continue;
-    certified.push_back(&info);
-    certificates.push_back(*summary.manifest->certificate);
+    if (!info.origin) continue;
+    for (const std::filesystem::path& run : RunsOf(info.source)) {
+      const SequenceSummary summary = ReadSequenceSummary(run);
+      if (!summary.manifest || !summary.manifest->certificate) continue;
+      if (certified.empty()) labels = info.labels;
+      certified.push_back(run);
+      certificates.push_back(*summary.manifest->certificate);
+    }
   }
   if (certificates.empty()) return std::nullopt;
   if (certificates.size() == 1) return certificates.front();
@@ -107,8 +123,8 @@ std::optional<RunCertificate> CertificateOf(const std::vector<RecordingInfo>& so
     }
   }
   CertificateSums sums(std::move(spec));
-  for (const RecordingInfo* info : certified) AddFrames(info->source, sums);
-  return sums.Result(certified.front()->labels);
+  for (const std::filesystem::path& run : certified) AddFrames(run, sums);
+  return sums.Result(labels);
 }
 
 Section MakeCertificateSection(const RunCertificate& certificate) {
