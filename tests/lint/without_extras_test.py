@@ -22,5 +22,5 @@ def options_without(*kept):
 
 
 assert options_without() == set(), options_without()
-study = options_without("core/recipe", "analysis/detectors", "analysis/study")
-assert study == {"recipe", "detectors", "study"}, study
+study = options_without("core/recipe", "analysis/detectors", "analysis/rare", "analysis/study")
+assert study == {"recipe", "detectors", "rare", "study"}, study

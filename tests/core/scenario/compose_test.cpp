@@ -44,9 +44,12 @@ TEST(CheckScenario, ReportsThePatternAndTheWorldTogether) {
 
 TEST(CheckScenario, NamesTheExtraThatASurveyNeeds) {
   const TemporaryFolder folder;
-  const auto file = folder.Write("a.json", R"({"version": 1, "file": ")" +
-                                               (ScenariosDir() / "minimal.json").string() +
-                                               R"(", "world": {"survey": "scene.survey"}})");
+  const auto file = folder.Write(
+      "a.json", R"({"version": 1, "file": ")" +
+                    (ScenariosDir() / "malformed/parts/sound.json").string() + R"(", "world": {
+    "alignment": {"course": {"type": "elements",
+                             "elements": [{"type": "straight", "length_m": 1000}]}},
+    "survey": "scene.survey"}})");
   const std::vector<std::string> faults = CheckScenario(file);
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_TRUE(faults[0].starts_with(file.string() + ": /world/survey: ")) << faults[0];
