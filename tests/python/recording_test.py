@@ -90,7 +90,7 @@ class Recordings(unittest.TestCase):
         self.assertEqual(sorted(frame["curvature"][frame.has_point]), [0.25, 0.5])
 
     def test_the_module_says_what_extras_it_has(self):
-        self.assertEqual(sorted(railcast.EXTRAS), ["osi", "packets", "ros"])
+        self.assertEqual(sorted(railcast.EXTRAS), ["insert", "osi", "packets", "recipe", "ros"])
 
     def test_a_capture_is_iterated_and_has_no_length(self):
         scenario = self.folder / "vlp16.json"
