@@ -44,6 +44,7 @@ TEST(CheckScenario, ReportsThePatternAndTheWorldTogether) {
 
 TEST(CheckScenario, NamesTheExtraThatASurveyNeeds) {
   const TemporaryFolder folder;
+  static_cast<void>(folder.Write("scene.survey", "any bytes"));
   const auto file = folder.Write(
       "a.json", R"({"version": 1, "file": ")" +
                     (ScenariosDir() / "malformed/parts/sound.json").string() + R"(", "world": {
@@ -53,7 +54,7 @@ TEST(CheckScenario, NamesTheExtraThatASurveyNeeds) {
   const std::vector<std::string> faults = CheckScenario(file);
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_TRUE(faults[0].starts_with(file.string() + ": /world/survey: ")) << faults[0];
-  EXPECT_NE(faults[0].find("scene.survey: needs the extra survey"), std::string::npos);
+  EXPECT_NE(faults[0].find("scene.survey: needs the extra survey"), std::string::npos) << faults[0];
 }
 
 TEST(MakeSimulator, PutsTheSensorWhereTheMountSays) {
