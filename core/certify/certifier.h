@@ -60,7 +60,7 @@ class Certifier {
  private:
   std::uint64_t seed_;
   float match_distance_m_;
-  std::set<std::uint32_t> vague_labels_;  ///< Of plants, wires and nets.
+  std::set<std::uint32_t> vague_labels_;   ///< Of plants, wires and nets.
   std::set<std::uint32_t> object_labels_;  ///< Of the world's objects.
   std::vector<RungBeside> rungs_;
   double num_expected_{};
