@@ -144,25 +144,54 @@ inline void ClimbWaves(const WaveClimbs& climbs, WavePeak* peaks) {
   }
 }
 
-/// Samples w(r) at equal steps. kWaveLanes components are summed at a time; the order of additions
-/// is fixed, so that all instruction sets give the same bits.
+/// Samples w(r) at equal steps, of an eighth of a component's standard deviation at most. From one
+/// step to the next, a component falls by a factor that itself falls by a constant one:
+/// exponentials are needed every kStride samples only, and rounding adds up to kStride^2 / 2 x 6e-8
+/// in between. kWaveLanes components are summed at a time; the order of additions is fixed, so that
+/// all instruction sets give the same bits.
 inline void SampleWave(
     const EchoWave& wave, float first_m, float step_m, std::size_t num_samples, float* samples) {
-  for (std::size_t k = 0; k < num_samples; ++k) {
-    const float range_m = first_m + step_m * static_cast<float>(k);
-    float value[kWaveLanes] = {};
+  constexpr std::size_t kStride = 16;
+  for (std::size_t begin = 0; begin < num_samples; begin += kStride) {
+    const float begin_m = first_m + step_m * static_cast<float>(begin);
+    alignas(64) float values[kStride][kWaveLanes] = {};
     for (std::size_t first = 0; first < wave.size; first += kWaveLanes) {
+      alignas(64) float part[kWaveLanes];
+      alignas(64) float fall[kWaveLanes];
+      alignas(64) float bend[kWaveLanes];
+#ifndef __clang__
+#pragma GCC ivdep
+#endif
       for (std::size_t i = 0; i < kWaveLanes; ++i) {
-        const float ahead_m = wave.range_m[first + i] - range_m;
-        const float exponent = -0.5F * ahead_m * ahead_m * wave.inverse_variance_per_m2[first + i];
-        value[i] += exponent < kLeastExponent ? 0.0F : wave.peak[first + i] * Exp(exponent);
+        const float ahead_m = wave.range_m[first + i] - begin_m;
+        const float scale = 0.5F * wave.inverse_variance_per_m2[first + i];
+        const float exponent = -scale * ahead_m * ahead_m;
+        const float least = exponent < kLeastExponent ? kLeastExponent : exponent;
+        const float near = wave.peak[first + i] * Exp(least);
+        part[i] = exponent < kLeastExponent ? 0.0F : near;
+        // Where it is steeper, the part is 0.
+        const float slope = scale * step_m * (2.0F * ahead_m - step_m);
+        const float falling = slope < kLeastExponent ? kLeastExponent : slope;
+        fall[i] = Exp(falling > -kLeastExponent ? -kLeastExponent : falling);
+        bend[i] = Exp(-2.0F * scale * step_m * step_m);
+      }
+      for (std::size_t k = 0; k < kStride; ++k) {
+        for (std::size_t i = 0; i < kWaveLanes; ++i) {
+          values[k][i] += part[i];
+          part[i] *= fall[i];
+          fall[i] *= bend[i];
+        }
       }
     }
-    // Pairwise summation has shorter chains of dependent additions than sequential summation.
-    for (std::size_t half = kWaveLanes / 2; half > 0; half /= 2) {
-      for (std::size_t i = 0; i < half; ++i) value[i] += value[i + half];
+    const std::size_t size = num_samples - begin < kStride ? num_samples - begin : kStride;
+    for (std::size_t k = 0; k < size; ++k) {
+      // Pairwise summation has shorter chains of dependent additions than sequential summation.
+      float* const value = values[k];
+      for (std::size_t half = kWaveLanes / 2; half > 0; half /= 2) {
+        for (std::size_t i = 0; i < half; ++i) value[i] += value[i + half];
+      }
+      samples[begin + k] = value[0];
     }
-    samples[k] = value[0];
   }
 }
 
