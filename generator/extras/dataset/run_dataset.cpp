@@ -171,6 +171,12 @@ class DatasetRun {
                            ShownPath(recipe_.file) + ": scenario " + std::to_string(number));
     FrameMaker maker(plan.scenario, turn.num_threads, plan.sensors.front().spec.isa);
     SetFrames(maker, plan);
+    // A recipe may draw the reference itself for some of its scenarios, which needs no certificate.
+    for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
+      if (maker.simulator(i).spec().detector.effects.dense_footprint) {
+        plan.sensors[i].spec.certify.reset();
+      }
+    }
     if (is_known) ClaimFolders(plan);
     if (plan.is_merged) CheckCanMerge(maker, plan);
     if (!MakeScenario(turn, maker, plan)) return std::nullopt;
@@ -219,12 +225,6 @@ class DatasetRun {
     hooks.is_alone = turn.is_alone;
     const auto ignore = [](const SensorPlan&, const FidelityChoice&) {};
     if (!ChooseFidelities(maker, ignore, hooks, plan)) return false;
-    // A recipe may draw the reference itself for some of its scenarios, which needs no certificate.
-    for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
-      if (maker.simulator(i).spec().detector.effects.dense_footprint) {
-        plan.sensors[i].spec.certify.reset();
-      }
-    }
     UseCertificates(maker, plan);
     const PlanResult made = MakeFrames(maker, plan, hooks);
     for (const SequenceResult& each : made.sequences) {

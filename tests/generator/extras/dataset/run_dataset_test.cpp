@@ -205,6 +205,21 @@ TEST_F(RunDatasetTest, AStoppedRunContinuesWithTheSameBytes) {
   }
 }
 
+// A scenario on the reference needs no certificate, and is not another run for that.
+TEST_F(RunDatasetTest, AStoppedRunOnTheReferenceContinuesThoughOthersAreCertified) {
+  nlohmann::json drawn = ProjectRecipe();
+  drawn["num_scenarios"] = 1;
+  drawn["draw"]["/fidelity"] = {{"choice", {"reference"}}};
+  const Recipe recipe = ReadProjectRecipe(Path("project"), drawn);
+  DatasetChoices choices = OnOneThread(Path("set"));
+  choices.certify = "1%";
+  std::atomic<int> num_asked = 0;
+  const DatasetHooks hooks = {NoDatasetHooks().on_progress, [&] { return ++num_asked > 4; }};
+  EXPECT_FALSE(RunDataset(recipe, choices, hooks).is_complete);
+  ASSERT_TRUE(fs::exists(Path("set/scenarios/000000/run.json")));
+  EXPECT_TRUE(RunDataset(recipe, choices, NoDatasetHooks()).is_complete);
+}
+
 TEST_F(RunDatasetTest, LeavesOtherFoldersAlone) {
   WriteFileWhole(Path("note.txt"), "mine");
   EXPECT_THAT(MessageOf([&] { (void)MakeDataset(recipe_, directory_.path()); }),
