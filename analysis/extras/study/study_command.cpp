@@ -110,6 +110,10 @@ int RunStudyCommand(StudyOptions options, const std::string& command_line) {
   if (options.output.out.empty()) {
     throw InputError("--out: missing: the folder of the study, in which it can be continued");
   }
+  CheckTable(options.table);
+  if (!options.table.empty() && !options.choices.shard.is_whole()) {
+    throw InputError("--table: must be without --shard: a shard has no report");
+  }
   StudySpec study = ReadStudy(options.study);
   study.table = options.table;
   if (options.is_rare && !study.rare) study.rare.emplace();

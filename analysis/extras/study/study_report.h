@@ -55,8 +55,13 @@ struct TargetResult {
 /// Adds the option --table.
 void AddTable(ProgramOptions& command, std::vector<std::string>& factors);
 
-/// The factors of the table of verdicts that a user names; none without names.
-/// @throws InputError if a name is that of no factor, or if they are not two or three.
+/// Checks the names of the table's factors before anything is simulated.
+/// @throws InputError if there are some, but not two or three different ones.
+void CheckTable(const std::vector<std::string>& names);
+
+/// The factors of the table of verdicts that a user names, after the kind of object, if it differs;
+/// none without names.
+/// @throws InputError as CheckTable(), or if a name is that of no factor.
 [[nodiscard]] std::vector<const Factor*> NamedFactors(const std::vector<std::string>& names,
                                                       const std::vector<Factor>& factors);
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "analysis/detectability/detection_probability.h"
@@ -110,12 +111,20 @@ void AddTable(ProgramOptions& command, std::vector<std::string>& factors) {
       .TakesOneWord();
 }
 
+void CheckTable(const std::vector<std::string>& names) {
+  const std::set<std::string> different(names.begin(), names.end());
+  const bool is_fit = different.size() == names.size() && names.size() >= 2 && names.size() <= 3;
+  if (is_fit || names.empty()) return;
+  std::string given;
+  for (const std::string& name : names) given += (given.empty() ? "" : ",") + name;
+  throw InputError("--table: must be two or three different factors (got " + Quoted(given) + ")");
+}
+
 std::vector<const Factor*> NamedFactors(const std::vector<std::string>& names,
                                         const std::vector<Factor>& factors) {
+  CheckTable(names);
   std::vector<const Factor*> named;
-  std::string given;
   for (const std::string& name : names) {
-    given += (given.empty() ? "" : ",") + name;
     const auto found = std::ranges::find(factors, name, &Factor::name);
     if (found == factors.end()) {
       std::vector<const Factor*> all;
@@ -123,11 +132,15 @@ std::vector<const Factor*> NamedFactors(const std::vector<std::string>& names,
       throw InputError("--table: must be factors of the study: " + NamesText(all, ", ") + " (got " +
                        Quoted(name) + ")");
     }
-    if (std::ranges::find(named, &*found) == named.end()) named.push_back(&*found);
+    named.push_back(&*found);
   }
-  const bool is_fit = named.size() == names.size() && named.size() >= 2 && named.size() <= 3;
-  if (is_fit || names.empty()) return named;
-  throw InputError("--table: must be two or three different factors (got " + Quoted(given) + ")");
+  // Distances of one kind of object say nothing of another.
+  const auto target = std::ranges::find(factors, kTarget, &Factor::name);
+  if (!named.empty() && target != factors.end() &&
+      std::ranges::find(named, &*target) == named.end()) {
+    named.insert(named.begin(), &*target);
+  }
+  return named;
 }
 
 std::vector<const Factor*> LargestFactors(const std::vector<Observation>& observations,

@@ -196,6 +196,19 @@ TEST(StudyTable, HasTheTargetAndTheFactorsThatMatterMost) {
   EXPECT_THAT(LargestOf(TwelveCells(48), {}), ElementsAre("target", "weather"));
 }
 
+TEST(StudyTable, NeverPoolsKindsOfObjects) {
+  const auto factors = FactorsOf(ObservationsOf(TwelveCells(48)));
+  const auto names_of = [&](const std::vector<std::string>& named) {
+    std::vector<std::string> names;
+    for (const Factor* factor : NamedFactors(named, factors)) names.push_back(factor->name);
+    return names;
+  };
+  using testing::ElementsAre;
+  EXPECT_THAT(names_of({"weather", "posture"}), ElementsAre("target", "weather", "posture"));
+  EXPECT_THAT(names_of({"posture", "target"}), ElementsAre("posture", "target"));
+  EXPECT_THAT(names_of({}), ElementsAre());
+}
+
 TEST(StudyTable, HasNamesBeforeThirdsOfNumbersWhereNothingIsWeighed) {
   std::vector<ApproachRecord> approaches;
   for (int i = 0; i < 48; ++i) {
