@@ -76,8 +76,9 @@ void Simulator::ScanNearObjects(BegunFrame& begun,
 
 std::vector<bool> Simulator::FiringsNearObjects(BegunFrame& begun,
                                                 std::span<const std::size_t> objects) const {
-  const Parts& parts = *parts_;
+  Parts& parts = *parts_;
   double beside_rad = BesideBeam_rad(parts.spec.detector);
+  parts.MakeOthers();
   for (const Detection& other : parts.others) {
     beside_rad = std::max(beside_rad, BesideBeam_rad(other.detector));
   }

@@ -136,7 +136,7 @@ void Simulator::Parts::UseSpec() {
   const DetectorSpec& detector = spec.detector;
   scenes.UseWind(Wind(WindVelocity_mps(detector.weather), detector.air_seed));
   scenes.UseMotion(detector.velocity.has_value());
-  UseVariants();
+  others.clear();
 }
 
 const SimulatorSpec& Simulator::spec() const {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -60,7 +61,8 @@ struct Simulator::Parts {
   FrameScenes scenes;
   std::optional<Detection> own;  ///< By the spec; always there once the simulator is made.
   std::vector<FiringVariant> variants;
-  std::vector<Detection> others;  ///< By the variants.
+  std::vector<Detection> others;  ///< By the variants; empty if the spec has changed since.
+  std::mutex others_mutex{};
   std::unique_ptr<tbb::global_control> parallelism;
   tbb::task_arena arena;
 
@@ -92,7 +94,9 @@ struct Simulator::Parts {
     };
   }
   void UseSpec();
-  void UseVariants();
+  /// Makes `others` unless they are there. Another spec needs others, but only for firings that are
+  /// made in variants, so that weather that is changed live does not wait for them.
+  void MakeOthers();
   /// Calls `use(tile, work)` on the echoes of every tile as they reach the receiver.
   /// @param views Receives what every firing sees; may be null.
   void ForAllEchoes(const Detection& by,

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <span>
 #include <utility>
 #include <vector>
@@ -11,8 +12,9 @@
 
 namespace railcast {
 
-void Simulator::Parts::UseVariants() {
-  others.clear();
+void Simulator::Parts::MakeOthers() {
+  const std::scoped_lock lock(others_mutex);
+  if (others.size() == variants.size()) return;
   for (const FiringVariant& variant : variants) {
     SimulatorSpec varied = spec;
     varied.detector.effects = variant.effects;
@@ -20,19 +22,23 @@ void Simulator::Parts::UseVariants() {
     others.emplace_back(varied, materials, pattern);
     // What meets a beam from beside it is found by the beams around it, which are not traced here.
     others.back().halo.reset();
-    if (others.back().tracer->casts_beams()) scenes.UseBeams();
   }
 }
 
 void Simulator::UseVariants(std::vector<FiringVariant> variants) {
-  parts_->variants = std::move(variants);
-  parts_->UseVariants();
+  Parts& parts = *parts_;
+  parts.variants = std::move(variants);
+  parts.others.clear();
+  parts.MakeOthers();
+  const auto casts_beams = [](const Detection& by) { return by.tracer->casts_beams(); };
+  if (std::ranges::any_of(parts.others, casts_beams)) parts.scenes.UseBeams();
 }
 
 void Simulator::ScanFirings(BegunFrame& begun,
                             std::span<const std::uint32_t> cells,
                             std::span<Frame> frames) {
   Parts& parts = *parts_;
+  parts.MakeOthers();
   Check(frames.size() == parts.others.size(), "there is a frame for each variant");
   Check(!cells.empty() && std::ranges::is_sorted(cells), "cells are in order");
   WithinMemory(parts.Making(begun.index), [&] {

@@ -111,6 +111,23 @@ TEST(Certifier, LeavesFramesAsTheyAre) {
   }
 }
 
+TEST(Certifier, CertifiesWhatWeatherThatChangesMakesOfFrames) {
+  ScenarioSpec rainy = LineAt(Fidelity::kSurface);
+  const auto changed = MakeSimulator(rainy, 1);
+  const Certifier certifier(rainy, 1.0, *changed);
+  rainy.weather.rain_rate_mmph = 30.0;
+  SimulatorSpec spec = changed->spec();
+  UseWeather(rainy, rainy.weather, spec);
+  changed->Use(spec);
+  const auto begun = changed->Begin(2);
+  Frame frame;
+  changed->Scan(*begun, frame);
+  const FrameCertificate certificate = certifier.Certify(*changed, *begun, frame);
+  ASSERT_FALSE(certificate.drawn.empty());
+  EXPECT_EQ(certificate, CertificateOf(rainy, 1.0, 2));
+  EXPECT_NE(certificate, CertificateOf(LineAt(Fidelity::kSurface), 1.0, 2));
+}
+
 TEST(Certifier, RefusesTheReferenceItself) {
   const ScenarioSpec scenario = LineAt(Fidelity::kReference);
   const auto simulator = MakeSimulator(scenario, 1);
