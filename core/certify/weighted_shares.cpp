@@ -172,12 +172,11 @@ std::optional<CertifiedFigure> WeightedShares::Quantile(
     all[firing] += 1.0;
     if (value <= quantile) below[firing] += 1.0;
   }
-  const CertifiedFigure of_share = WilsonInterval(share, EffectiveNumber(share, below, all));
-  CertifiedFigure figure{quantile, at(of_share.low), {}};
+  const double half =
+      kNormalQuantile * std::sqrt(share * (1.0 - share) / EffectiveNumber(share, below, all));
+  CertifiedFigure figure{quantile, at(share - half), {}};
   // Beyond the largest value nothing was drawn, but there may be something.
-  if (*of_share.high * total <= total - weights[values.back().first]) {
-    figure.high = at(*of_share.high);
-  }
+  if (share + half < 1.0) figure.high = at(share + half);
   return figure;
 }
 

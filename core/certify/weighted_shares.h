@@ -62,7 +62,9 @@ class WeightedShares {
                                                      const std::vector<double>& among) const;
 
   /// The quantile of values that belong to firings, with the interval of Woodruff (1952, JASA 47):
-  /// the quantiles at the ends of the interval of the share below. Absent if there is none.
+  /// the quantiles whose drawn share below is no farther from the true one, which is known,
+  /// than 1.96 of its standard deviations. Wilson's interval, of a share that is not known, would
+  /// end too early in a tail. Absent if there is none.
   /// @param values (drawn firing, value)
   [[nodiscard]] std::optional<CertifiedFigure> Quantile(
       std::vector<std::pair<std::size_t, double>> values, double share) const;

@@ -52,9 +52,20 @@ ScenarioSpec ReadCase(const Case& of) {
   return ReadScenario(file);
 }
 
-// The firings that were drawn are the population: strata are counted anew among them.
-void KeepDrawn(FrameCertificate& certificate) {
-  for (StratumCount& stratum : certificate.strata) stratum.firings = 0;
+// The firings that were drawn are the population: strata are counted anew among them. Of kinds that
+// were drawn more often than others, fewer are kept, so that it is made up as the frame is; but for
+// firings that meet nothing, which have hardly any echoes.
+void KeepDrawn(std::uint32_t frame, FrameCertificate& certificate) {
+  double least = 1.0;
+  for (StratumCount& stratum : certificate.strata) {
+    stratum.firings = 0;
+    if (stratum.label != 0) least = std::min(least, stratum.probability);
+  }
+  std::erase_if(certificate.drawn, [&](const DrawnFiring& drawn) {
+    const auto words = RandomWords(0, RandomUse::kCertificate, frame, drawn.cell, 2);
+    return static_cast<double>(words[0]) * 0x1p-32 >=
+           least / certificate.strata[drawn.stratum].probability;
+  });
   for (const DrawnFiring& drawn : certificate.drawn) ++certificate.strata[drawn.stratum].firings;
 }
 
@@ -70,7 +81,7 @@ KnownFrames MakeKnownFrames(const Case& of, double cost_share) {
     simulator->Scan(*begun, frame);
     FrameCertificate& certificate =
         known.frames.emplace_back(certifier.Certify(*simulator, *begun, frame));
-    KeepDrawn(certificate);
+    KeepDrawn(i, certificate);
   }
   return known;
 }
