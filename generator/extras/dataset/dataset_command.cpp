@@ -36,7 +36,6 @@ struct DatasetOptions {
   std::string shard = "1/1";
   bool has_scenarios_only = false;
   bool has_format = false;
-  bool has_certify = false;
 };
 
 // Writes the scenarios that frames would be made of, without frames.
@@ -134,7 +133,8 @@ std::string UsualCertify(const Recipe& recipe, const DatasetChoices& choices) {
 int RunDatasetCommand(DatasetOptions options) {
   const Recipe recipe = ReadRecipe(options.recipe, ReadRecordedBase);
   if (recipe.has_plans() && !options.has_format) options.choices.format = "same";
-  if (!options.has_certify) options.choices.certify = UsualCertify(recipe, options.choices);
+  if (!options.choices.must_certify)
+    options.choices.certify = UsualCertify(recipe, options.choices);
   static_cast<void>(CertifiedShareOf(options.choices.certify));
   if (options.has_scenarios_only) return WriteScenarios(recipe, options);
   // The folder can be continued however the program ends.
@@ -194,7 +194,7 @@ void AddDataset(ProgramOptions& app, ProgramCommand& command) {
     CheckFields(options->choices.fields);
     options->choices.shard = ParseShard(options->shard).value();
     options->has_format = dataset.is_given("--format");
-    options->has_certify = dataset.is_given("--certify");
+    options->choices.must_certify = dataset.is_given("--certify");
     command = [options](const std::string&) { return RunDatasetCommand(*options); };
   });
 }

@@ -35,6 +35,7 @@
 #include "generator/run/run_directory.h"
 #include "generator/run/run_plan.h"
 #include "railcast/rail_world.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 namespace {
@@ -90,6 +91,18 @@ void CheckChoices(const Recipe& recipe, const DatasetChoices& choices) {
     insert.directory = choices.directory;
     CheckIsApart(insert);
   }
+}
+
+/// Checks that a scenario of the recipe can be certified if this is asked for. Mostly, the first
+/// one can be.
+void CheckCertify(const Recipe& recipe, const DatasetChoices& choices) {
+  if (!choices.must_certify || !CertifiedShareOf(choices.certify)) return;
+  const ScenarioDrawer drawer(recipe);
+  for (std::uint32_t i = 0; i < recipe.num_scenarios; ++i) {
+    if (!EffectsOf(drawer.Draw(i).scenario).dense_footprint) return;
+  }
+  throw InputError("--certify: must be left out: all scenarios of " + ShownPath(recipe.file) +
+                   " are of fidelity reference, which it compares with");
 }
 
 /// Lets a scenario be gone on with whose folder is known to be the data set's, even if it does not
@@ -274,6 +287,7 @@ DatasetResult RunDataset(const Recipe& recipe,
                          const DatasetChoices& choices,
                          const DatasetHooks& hooks) {
   CheckChoices(recipe, choices);
+  CheckCertify(recipe, choices);
   return DatasetRun(recipe, choices, hooks).Run();
 }
 

@@ -19,6 +19,9 @@ namespace railcast {
 /// also be "same": that of the recordings.
 struct DatasetChoices : RunChoices {
   Shard shard;
+  /// Whether `certify` was asked for, so that a recipe of which nothing can be certified is
+  /// refused.
+  bool must_certify = false;
 };
 
 /// How far a run has got.

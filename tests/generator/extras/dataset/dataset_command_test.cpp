@@ -112,6 +112,19 @@ TEST_F(DatasetCommand, RefusesAFormatThatCannotHoldTheOutput) {
                           "--format kitti (got right-handed vehicle)\n");
 }
 
+TEST_F(DatasetCommand, RefusesToCertifyTheReferenceAloneIfItIsAskedTo) {
+  nlohmann::json recipe = ProjectRecipe();
+  recipe["num_scenarios"] = 1;
+  recipe["set"]["/fidelity"] = "reference";
+  (void)WriteProjectRecipe(directory_.path() / "project", recipe);
+  const Ended run = Generate(Command("out", "--certify 1%"));
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run.said, "--certify: must be left out: all scenarios of " + recipe_.string() +
+                          " are of fidelity reference, which it compares with\n");
+  EXPECT_FALSE(fs::exists(Path("out")));
+  EXPECT_EQ(Generate(Command("out")).status, 0);
+}
+
 /// Data sets whose clouds are in bags of ROS 2.
 class DatasetOfBags : public DatasetInFormat {
  protected:
