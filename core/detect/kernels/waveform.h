@@ -144,18 +144,38 @@ inline void ClimbWaves(const WaveClimbs& climbs, WavePeak* peaks) {
   }
 }
 
+/// How far from a sample components of a wave may be that add anything to it.
+[[nodiscard]] inline float ReachOf(const EchoWave& wave) {
+  float least = wave.inverse_variance_per_m2[0];
+  for (std::size_t i = 1; i < wave.size; ++i) {
+    least = std::fmin(least, wave.inverse_variance_per_m2[i]);
+  }
+  // A little more, so that rounding does not matter.
+  return 1.001F * std::sqrt(-2.0F * kLeastExponent / least);
+}
+
 /// Samples w(r) at equal steps, of an eighth of a component's standard deviation at most. From one
 /// step to the next, a component falls by a factor that itself falls by a constant one:
 /// exponentials are needed every kStride samples only, and rounding adds up to kStride^2 / 2 x 6e-8
-/// in between. kWaveLanes components are summed at a time; the order of additions is fixed, so that
-/// all instruction sets give the same bits.
+/// in between. kWaveLanes components, which are sorted by range, are summed at a time; the order of
+/// additions is fixed, so that all instruction sets give the same bits. Those out of reach would
+/// add 0.
 inline void SampleWave(
     const EchoWave& wave, float first_m, float step_m, std::size_t num_samples, float* samples) {
   constexpr std::size_t kStride = 16;
+  const float reach_m = ReachOf(wave);
+  std::size_t near = 0;
   for (std::size_t begin = 0; begin < num_samples; begin += kStride) {
     const float begin_m = first_m + step_m * static_cast<float>(begin);
+    const float far_m = begin_m + step_m * static_cast<float>(kStride) + reach_m;
+    // The last ones are filled up with components of no power.
+    while (near + kWaveLanes < wave.size &&
+           wave.range_m[near + kWaveLanes - 1] < begin_m - reach_m) {
+      near += kWaveLanes;
+    }
     alignas(64) float values[kStride][kWaveLanes] = {};
-    for (std::size_t first = 0; first < wave.size; first += kWaveLanes) {
+    for (std::size_t first = near; first < wave.size && wave.range_m[first] <= far_m;
+         first += kWaveLanes) {
       alignas(64) float part[kWaveLanes];
       alignas(64) float fall[kWaveLanes];
       alignas(64) float bend[kWaveLanes];
@@ -167,8 +187,8 @@ inline void SampleWave(
         const float scale = 0.5F * wave.inverse_variance_per_m2[first + i];
         const float exponent = -scale * ahead_m * ahead_m;
         const float least = exponent < kLeastExponent ? kLeastExponent : exponent;
-        const float near = wave.peak[first + i] * Exp(least);
-        part[i] = exponent < kLeastExponent ? 0.0F : near;
+        const float full = wave.peak[first + i] * Exp(least);
+        part[i] = exponent < kLeastExponent ? 0.0F : full;
         // Where it is steeper, the part is 0.
         const float slope = scale * step_m * (2.0F * ahead_m - step_m);
         const float falling = slope < kLeastExponent ? kLeastExponent : slope;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -129,7 +130,9 @@ std::vector<float> RunPhysics(const Kernels& kernels, RayTile& rays, DetectTile&
   measurement.snr_at_threshold = 5.0F;
   measurement.channel_bias_m = bias_m.data();
   kernels.measure_by_signal(tile, measurement);
-  const EchoWave wave{32, rays.range_m, tile.share, tile.specular_f0};
+  std::vector<float> range_m(rays.range_m, rays.range_m + 32);
+  std::ranges::sort(range_m);
+  const EchoWave wave{32, range_m.data(), tile.share, tile.specular_f0};
   WaveClimbs climbs{kTileSize / kClimbLanes, rays.range_m, tile.share, tile.specular_f0};
   for (std::size_t i = 0; i < kClimbLanes; ++i) climbs.from_m[i] = 30.0F * static_cast<float>(i);
   WavePeak peaks_of_waves[kClimbLanes];
@@ -189,6 +192,37 @@ TEST(Kernels, LeaveFiringsWithoutASurfaceWithoutAPoint) {
     EXPECT_EQ(tile->outcome[i], static_cast<std::uint32_t>(Outcome::kNoSurface));
     EXPECT_TRUE(std::isnan(tile->x[i]));
     EXPECT_TRUE(std::isnan(tile->range_m[i]));
+  }
+}
+
+TEST(Kernels, SampleEachPartOfALongWaveAsIfItWereAlone) {
+  // Three runs of components, 100 m apart, of which none reaches another.
+  constexpr std::size_t kNum = 64;
+  std::vector<float> range_m;
+  std::vector<float> peak;
+  std::vector<float> inverse;
+  for (std::uint32_t i = 0; i < 3 * kNum; ++i) {
+    const auto words = RandomWords(5, RandomUse::kNoise, 0, i);
+    range_m.push_back(100.0F * static_cast<float>(i / kNum) + 5.0F * UnitFloat(words[0]));
+    peak.push_back(UnitFloat(words[1]));
+    inverse.push_back(5.0F + UnitFloat(words[2]));
+  }
+  std::ranges::sort(range_m);
+  constexpr std::size_t kNumSamples = 1500;
+  std::vector<float> all(kNumSamples);
+  std::vector<float> one(kNumSamples);
+  std::vector<float> sum(kNumSamples);
+  for (const Kernels& kernels : AvailableKernels()) {
+    std::ranges::fill(sum, 0.0F);
+    for (std::size_t first = 0; first < 3 * kNum; first += kNum) {
+      const EchoWave part{kNum, &range_m[first], &peak[first], &inverse[first]};
+      kernels.sample_wave(part, -10.0F, 0.15F, kNumSamples, one.data());
+      for (std::size_t k = 0; k < kNumSamples; ++k) sum[k] += one[k];
+    }
+    const EchoWave wave{3 * kNum, range_m.data(), peak.data(), inverse.data()};
+    kernels.sample_wave(wave, -10.0F, 0.15F, kNumSamples, all.data());
+    EXPECT_EQ(all, sum);
+    EXPECT_GT(*std::ranges::max_element(all), 1.0F);
   }
 }
 
