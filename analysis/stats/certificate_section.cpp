@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -11,8 +12,10 @@
 #include "analysis/report/cell_text.h"
 #include "core/base/text.h"
 #include "core/certify/weighted_shares.h"
-#include "core/io/recording/sequence_check.h"
-#include "core/io/run/frame_record.h"
+#include "core/io/record/read_record.h"
+#include "core/io/run/dataset_files.h"
+#include "core/io/run/run_record.h"
+#include "core/io/run/sequence_files.h"
 
 namespace railcast {
 namespace {
@@ -69,61 +72,82 @@ Table RungsTable(const RunCertificate& certificate) {
   return table;
 }
 
-// The runs that a source has: itself, or those below a data set or a run of several sensors.
-std::vector<std::filesystem::path> RunsOf(const std::filesystem::path& source) {
-  if (std::filesystem::exists(source / kRunFile)) return {source};
-  std::vector<std::filesystem::path> runs;
-  if (!std::filesystem::is_directory(source)) return runs;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(source)) {
-    if (entry.path().filename() == kFramesFile) runs.push_back(entry.path().parent_path());
-  }
-  std::ranges::sort(runs);
-  return runs;
+/// A folder with certificates: a run, or what was put into a recording.
+struct CertifiedFolder {
+  std::filesystem::path ledger;  ///< The file with those of its frames.
+  RunCertificate certificate;
+};
+
+// Adds a folder with such a file, if it is complete and certified.
+void AddCertified(const std::filesystem::path& ledger, std::vector<CertifiedFolder>& folders) {
+  const std::filesystem::path file = ledger.parent_path() / kManifestFile;
+  if (!std::filesystem::exists(ledger) || !std::filesystem::exists(file)) return;
+  const Json manifest = ReadRecordedJson(ReadManifestText(file), ShownPath(file));
+  const auto certificate = manifest.find("certificate");
+  if (certificate == manifest.end()) return;
+  folders.push_back({ledger, ReadRecord<RunCertificate>(certificate->dump(), ShownPath(file))});
 }
 
-// Adds up the frames of a run.
-void AddFrames(const std::filesystem::path& run, CertificateSums& sums) {
-  const std::filesystem::path file = run / kFramesFile;
-  std::ifstream lines(file, std::ios::binary);
+// The certified folders that a source is of: a run, runs below a data set or of several sensors, or
+// the insertion around a recording that is no run.
+std::vector<CertifiedFolder> CertifiedFolders(const RecordingInfo& info) {
+  const std::filesystem::path& source = info.source;
+  std::vector<CertifiedFolder> folders;
+  if (std::filesystem::exists(source / kRunFile)) {
+    AddCertified(source / kFramesFile, folders);
+    return folders;
+  }
+  if (source.filename() == kRecordingFolder) {
+    AddCertified(source.parent_path() / kInsertFile, folders);
+  }
+  if (!info.origin || !std::filesystem::is_directory(source)) return folders;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(source)) {
+    if (entry.path().filename() == kFramesFile) AddCertified(entry.path(), folders);
+  }
+  std::ranges::sort(folders, {}, &CertifiedFolder::ledger);
+  return folders;
+}
+
+// Adds up the frames of a folder.
+void AddFrames(const CertifiedFolder& folder, CertificateSums& sums) {
+  std::ifstream lines(folder.ledger, std::ios::binary);
   std::size_t number = 0;
   for (std::string line; std::getline(lines, line);) {
-    const FrameRecord record =
-        ReadFrameLine(line, ShownPath(file) + ":" + std::to_string(++number));
-    if (record.certificate) sums.Add(*record.certificate);
+    const std::string place = ShownPath(folder.ledger) + ":" + std::to_string(++number);
+    const Json record = ReadRecordedJson(line, place);
+    const auto certificate = record.find("certificate");
+    if (certificate == record.end()) continue;
+    sums.Add(ReadRecord<FrameCertificate>(certificate->dump(), place));
   }
 }
 
 }  // namespace
 
 std::optional<RunCertificate> CertificateOf(const std::vector<RecordingInfo>& sources) {
-  std::vector<std::filesystem::path> certified;
-  std::vector<RunCertificate> certificates;
+  std::vector<CertifiedFolder> folders;
   LabelTable labels;
   for (const RecordingInfo& info : sources) {
-    if (!info.origin) continue;
-    for (const std::filesystem::path& run : RunsOf(info.source)) {
-      const SequenceSummary summary = ReadSequenceSummary(run);
-      if (!summary.manifest || !summary.manifest->certificate) continue;
-      if (certified.empty()) labels = info.labels;
-      certified.push_back(run);
-      certificates.push_back(*summary.manifest->certificate);
+    for (CertifiedFolder& folder : CertifiedFolders(info)) {
+      if (folders.empty()) labels = info.labels;
+      folders.push_back(std::move(folder));
     }
   }
-  if (certificates.empty()) return std::nullopt;
-  if (certificates.size() == 1) return certificates.front();
-  CertifySpec spec{.cost_share = certificates.front().cost_share};
-  const auto has_same_rungs = [&](const RunCertificate& other) {
-    return std::ranges::equal(other.rungs, certificates.front().rungs, {}, &CertifiedRung::name,
+  if (folders.empty()) return std::nullopt;
+  const RunCertificate& first = folders.front().certificate;
+  if (folders.size() == 1) return first;
+  CertifySpec spec{.cost_share = first.cost_share};
+  const auto has_same_rungs = [&](const CertifiedFolder& other) {
+    return std::ranges::equal(other.certificate.rungs, first.rungs, {}, &CertifiedRung::name,
                               &CertifiedRung::name);
   };
   // Frames of different rungs have no neighbours in common.
-  if (std::ranges::all_of(certificates, has_same_rungs)) {
-    for (const CertifiedRung& rung : certificates.front().rungs) {
+  if (std::ranges::all_of(folders, has_same_rungs)) {
+    for (const CertifiedRung& rung : first.rungs) {
       spec.rungs.push_back({rung.name, {}, rung.cost});
     }
   }
   CertificateSums sums(std::move(spec));
-  for (const std::filesystem::path& run : certified) AddFrames(run, sums);
+  for (const CertifiedFolder& folder : folders) AddFrames(folder, sums);
   return sums.Result(labels);
 }
 

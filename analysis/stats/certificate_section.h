@@ -9,10 +9,10 @@
 
 namespace railcast {
 
-/// The numerical error of recordings that railcast made and certified, over all of their frames:
-/// that of the manifest, or of several recordings the figures of all together, without objects and
-/// tolerances, which are of single runs. Recordings without a
-/// certificate, and unfinished ones, have no part in it; absent if none is left.
+/// The numerical error of recordings that railcast made, or put something into, and certified, over
+/// all of their frames: that of the manifest, or of several recordings the figures of all together,
+/// without objects and tolerances, which are of single runs. Recordings without a certificate, and
+/// unfinished ones, have no part in it; absent if none is left.
 /// @throws InputError with one line if a file cannot be read or is none of railcast's.
 [[nodiscard]] std::optional<RunCertificate> CertificateOf(
     const std::vector<RecordingInfo>& sources);
