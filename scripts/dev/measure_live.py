@@ -2,7 +2,7 @@
 """Measures live runs on this machine, sender and receiver on loopback, as in
 docs/results/live.md.
 
-Usage: measure_live.py BUILD_DIR [steady|clients|limits|late|fast]... [--seconds S]
+Usage: measure_live.py BUILD_DIR [steady|clients|limits|late|fast|certified]... [--seconds S]
 
 steady: the published scan at 10 and 20 Hz, spread and in bursts: frames lost and late, lateness.
 clients: VLP-16 at 20 Hz and HDL-32E at 10 Hz into PCL's own grabbers.
@@ -12,6 +12,9 @@ late: the late frames of the most expensive runs, received on the same cores: VL
 the published scan, at 10 and 20 Hz. For two cores: taskset -c 0,1 measure_live.py BUILD_DIR late.
 fast: the published scan at 10 Hz from a train at 160 km/h, on an open line, through hills and through
 a station: what a frame takes, and how long the longest one, which waits for the world if any does.
+certified: the published scan at 10 Hz in bursts, three times in turn without and with --certify 1%: a
+frame's latency, from its last firing to its last datagram, what certificates take, and how many frames
+have none for want of time. Only if it is named.
 """
 
 import argparse
@@ -163,12 +166,27 @@ def fast(bench, seconds):
               f"max {sent['compute'][3]:.1f} ms", flush=True)
 
 
+def certified(bench, seconds):
+    for rung in ("plausibility", "footprint_16"):
+        scenario = bench.published(10, RUNGS[rung][1])
+        for certify in ("off", "1%") * 3:
+            summary = bench.folder / "summary.json"
+            sent, received = bench.stream_and_receive(
+                scenario, seconds, "--fidelity", RUNGS[rung][0], "--pacing", "burst", "--clock", "utc",
+                "--certify", certify, "--summary", summary)
+            latency = re.search("latency since the last firing: (.*)", received).group(1)
+            sensor = json.loads(summary.read_text(encoding="utf-8"))["sensors"][0]
+            print(f"{rung}, --certify {certify}, {seconds:g} s: {sent['frames']} frames, {sent['late']} late; "
+                  f"latency {latency}; certificates {sensor.get('certify_ms')}, "
+                  f"{sensor.get('uncertified_frames', 0)} frames without", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("what", nargs="*", choices=["steady", "clients", "limits", "late", "fast", []])
-    parser.add_argument("--seconds", type=float, help="of each run but those of late (default: 60, 60, 10, 30)")
+    parser.add_argument("what", nargs="*", choices=["steady", "clients", "limits", "late", "fast", "certified", []])
+    parser.add_argument("--seconds", type=float, help="of each run but those of late (default: 60, 60, 10, 30, 60)")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(options.build, pathlib.Path(folder))
@@ -178,6 +196,8 @@ def main():
                 measure(bench, options.seconds or seconds)
         if not options.what or "late" in options.what:
             late(bench, 600)
+        if "certified" in options.what:
+            certified(bench, options.seconds or 60.0)
 
 
 if __name__ == "__main__":
