@@ -1,7 +1,6 @@
 #include "core/certify/certifier.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -181,33 +180,40 @@ double NumCertified(const ScenarioSpec& scenario,
 }
 
 Certifier::Certifier(const ScenarioSpec& scenario, double cost_share, Simulator& simulator)
-    : seed_(simulator.spec().detector.seed),
+    : Certifier(scenario,
+                cost_share,
+                simulator.spec().detector,
+                simulator.pattern().num_firings(),
+                simulator.world()) {
+  simulator.UseVariants(variants_);
+}
+
+Certifier::Certifier(const ScenarioSpec& scenario,
+                     double cost_share,
+                     const DetectorSpec& own,
+                     std::size_t num_firings,
+                     const World& world)
+    : seed_(own.seed),
       match_distance_m_(static_cast<float>(0.5 * PulseLength_m(scenario.lidar.beam))),
-      rungs_(RungsBeside(scenario, simulator.spec().detector)) {
-  const DetectorSpec& own = simulator.spec().detector;
+      rungs_(RungsBeside(scenario, own)) {
   if (own.effects.dense_footprint) {
     throw InputError(
         "--certify: must be at another fidelity than reference, which it compares with");
   }
-  const std::size_t num_firings = simulator.pattern().num_firings();
   num_expected_ = NumCertified(scenario, own, num_firings, cost_share);
   probability_per_scatter_ = num_expected_ / static_cast<double>(num_firings) / kMeanScatter;
   const LabelTable labels(scenario.labels);
   for (const char* name : kVagueLabels) {
     if (const Label* label = labels.Find(name)) vague_labels_.insert(label->id);
   }
+  for (const SceneObject& object : world.objects()) object_labels_.insert(object.label);
   const int rays = own.beam.footprint_rays;
-  for (const SceneObject& object : simulator.world().objects()) {
-    object_labels_.insert(object.label);
-  }
-  std::vector<FiringVariant> variants = {
-      {WithoutRangeErrors(EffectsAt(Fidelity::kReference, scenario)), rays},
-      {WithoutRangeErrors(own.effects), rays}};
-  for (const RungBeside& rung : rungs_) variants.push_back(rung.variant);
-  simulator.UseVariants(std::move(variants));
+  variants_ = {{WithoutRangeErrors(EffectsAt(Fidelity::kReference, scenario)), rays},
+               {WithoutRangeErrors(own.effects), rays}};
+  for (const RungBeside& rung : rungs_) variants_.push_back(rung.variant);
 }
 
-double Certifier::ProbabilityOf(const Stratum& stratum) const {
+double Certifier::ScatterOf(const Stratum& stratum) const {
   double scatter = stratum.has_return ? kInnerScatter : kLostScatter;
   if (object_labels_.contains(stratum.label)) {
     scatter = kObjectScatter;
@@ -218,13 +224,21 @@ double Certifier::ProbabilityOf(const Stratum& stratum) const {
   } else if (stratum.label == 0) {
     scatter = kNothingScatter;
   }
-  return std::min(scatter * probability_per_scatter_, 1.0);
+  return scatter;
 }
 
 FrameCertificate Certifier::Certify(Simulator& simulator,
                                     BegunFrame& begun,
                                     const Frame& frame,
                                     const CertifiedRegion* region) const {
+  return Certify(frame, region, [&](std::span<const std::uint32_t> cells, std::span<Frame> frames) {
+    simulator.ScanFirings(begun, cells, frames);
+  });
+}
+
+FrameCertificate Certifier::Certify(const Frame& frame,
+                                    const CertifiedRegion* region,
+                                    const ScanFirings& scan) const {
   const std::vector<std::uint8_t> edges = EdgesOf(frame);
   StrataCounter counter;
   for (std::size_t cell = 0; cell < edges.size(); ++cell) {
@@ -232,9 +246,17 @@ FrameCertificate Certifier::Certify(Simulator& simulator,
       counter.Count(StratumOf(frame, cell, edges[cell] != 0));
   }
   FrameCertificate certificate{counter.Strata(), {}};
+  double per_scatter = probability_per_scatter_;
+  if (region != nullptr && region->num_wanted) {
+    double scatters = 0.0;
+    for (const StratumCount& stratum : certificate.strata) {
+      scatters += ScatterOf(stratum) * static_cast<double>(stratum.firings);
+    }
+    if (scatters > 0.0) per_scatter = *region->num_wanted / scatters;
+  }
   double most = 0.0;
   for (StratumCount& stratum : certificate.strata) {
-    stratum.probability = ProbabilityOf(stratum);
+    stratum.probability = std::min(ScatterOf(stratum) * per_scatter, 1.0);
     most = std::max(most, stratum.probability);
   }
   std::vector<std::uint32_t> cells;
@@ -252,11 +274,11 @@ FrameCertificate Certifier::Certify(Simulator& simulator,
     strata.push_back(static_cast<std::uint32_t>(at - certificate.strata.begin()));
   }
   if (cells.empty()) return certificate;
-  std::vector<Frame> frames(2 + rungs_.size());
-  simulator.ScanFirings(begun, cells, frames);
+  std::vector<Frame> frames(variants_.size());
+  scan(cells, frames);
   const auto compare = [&](const Frame& other, std::size_t i) {
     std::vector<CertifiedEcho> echoes = Compare(frames[0], other, i, match_distance_m_);
-    if (region == nullptr) return echoes;
+    if (region == nullptr || region->instances.empty()) return echoes;
     std::erase_if(echoes, [&](const CertifiedEcho& echo) {
       return !region->instances.contains(echo.instance);
     });

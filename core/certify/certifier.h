@@ -1,8 +1,12 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,8 +20,12 @@ namespace railcast {
 
 /// What of a frame is certified.
 struct CertifiedRegion {
-  std::vector<bool> cells{};            ///< The firings, by cell: all others are left out.
-  std::set<std::uint32_t> instances{};  ///< Only echoes of these objects are counted.
+  std::vector<bool> cells{};  ///< The firings, by cell: all others are left out.
+  /// Only echoes of these objects are counted; of all things if it is empty.
+  std::set<std::uint32_t> instances{};
+  /// About how many firings are drawn; absent: as many as the share of the time is enough for if
+  /// all firings take what those of the run do.
+  std::optional<double> num_wanted{};
 };
 
 /// Certifies the frames of a simulator: draws some firings of each, makes them anew on rung
@@ -39,6 +47,13 @@ class Certifier {
   /// @param simulator With the effects that its frames are made with.
   /// @throws InputError if these are those of rung `reference`.
   Certifier(const ScenarioSpec& scenario, double cost_share, Simulator& simulator);
+  /// As above, for firings that something else than a simulator makes.
+  /// @param num_firings Of a frame.
+  Certifier(const ScenarioSpec& scenario,
+            double cost_share,
+            const DetectorSpec& own,
+            std::size_t num_firings,
+            const World& world);
 
   /// Thread-safe for different frames, as Simulator::Scan().
   /// @param simulator The same, with the same effects.
@@ -50,19 +65,35 @@ class Certifier {
                                          const Frame& frame,
                                          const CertifiedRegion* region = nullptr) const;
 
+  /// Makes firings in each of variants(), as Simulator::ScanFirings().
+  using ScanFirings =
+      std::function<void(std::span<const std::uint32_t> cells, std::span<Frame> frames)>;
+  /// As above.
+  [[nodiscard]] FrameCertificate Certify(const Frame& frame,
+                                         const CertifiedRegion* region,
+                                         const ScanFirings& scan) const;
+
+  /// The reference, the run's own way, and those of rungs().
+  [[nodiscard]] const std::vector<FiringVariant>& variants() const { return variants_; }
   /// Those beside the run's own, whose errors are found on the same firings.
   [[nodiscard]] const std::vector<RungBeside>& rungs() const { return rungs_; }
   /// About how many firings of a frame are drawn.
   [[nodiscard]] double num_expected() const { return num_expected_; }
   /// With which each firing of a stratum is drawn.
-  [[nodiscard]] double ProbabilityOf(const Stratum& stratum) const;
+  [[nodiscard]] double ProbabilityOf(const Stratum& stratum) const {
+    return std::min(ScatterOf(stratum) * probability_per_scatter_, 1.0);
+  }
 
  private:
+  /// The standard deviation of what is wrong with its firings, as experience says.
+  [[nodiscard]] double ScatterOf(const Stratum& stratum) const;
+
   std::uint64_t seed_;
   float match_distance_m_;
   std::set<std::uint32_t> vague_labels_;   ///< Of plants, wires and nets.
   std::set<std::uint32_t> object_labels_;  ///< Of the world's objects.
   std::vector<RungBeside> rungs_;
+  std::vector<FiringVariant> variants_;
   double num_expected_{};
   double probability_per_scatter_{};
 };

@@ -31,8 +31,8 @@ void AddRunChoices(ProgramOptions& command, RunChoices& choices) {
   AddIsa(command, choices.isa);
 }
 
-void AddCertify(ProgramOptions& command, std::string& certify) {
-  command
+Option AddCertify(ProgramOptions& command, std::string& certify) {
+  return command
       .AddOption("--certify", certify,
                  "Share of the frames' time, such as 1%, for making some of their firings anew on "
                  "rung reference, which tells the run's numerical error; or off")

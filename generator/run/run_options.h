@@ -14,7 +14,7 @@ namespace railcast {
 void AddRunChoices(ProgramOptions& command, RunChoices& choices);
 
 /// Adds the option `--certify`, which CertifiedShareOf() reads.
-void AddCertify(ProgramOptions& command, std::string& certify);
+Option AddCertify(ProgramOptions& command, std::string& certify);
 
 /// Checks a list of fields, or the name of a layout of points. One that is none is a usage error
 /// (FailUsage), like an unknown format.

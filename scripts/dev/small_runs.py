@@ -38,7 +38,7 @@ ROWS = (
     ("railcast-generate world", "drive.json --from-s 100 --to-s 110 --out world.glb", ["world.glb"], None),
     ("railcast-generate world", "drive.json --from-s 100 --to-s 110 --out world.obj", ["world.obj"], None),
     ("railcast-generate world", "drive.json --from-s 100 --to-s 110 --out world.ply", ["world.ply"], None),
-    ("railcast-generate insert", "drive plan.json --frames 0..2 --out inserted", ["inserted/insert.jsonl"], None),
+    ("railcast-generate insert", "drive plan.json --frames 0..2 --certify 10% --out inserted", ["inserted/insert.jsonl"], None),
     ("railcast-generate insert", "drive plan.json --frames 0..2 --check", "box", None),
     ("railcast-generate convert", "drive converted --frames 0..2 --format ply", ["converted/frames/000002.ply"], None),
     ("railcast-generate survey", "drive --frames 5 --out site", ["site/world.json", "site/scene.survey"], None),

@@ -25,11 +25,13 @@ void Describe(Archive& a, InsertRunRecord& s) {
   a.Required("first_frame", s.first_frame, "");
   a.Required("num_frames", s.num_frames, "");
   a.Optional("source", s.source, "The run that made the recording, if it is a sequence.");
+  a.Optional("certify", s.certify, "Share of the time that certificates may take.");
 }
 
 void Describe(Archive& a, InsertManifestRecord& s) {
   Describe(a, s.run);
   a.Required("remarks", s.remarks, "On the plan.");
+  a.Optional("certificate", s.certificate, "The numerical error of what was put in.");
   a.Required("files_xxh3", s.files, "Hashes of all files but those that insert.jsonl names.");
 }
 
@@ -79,6 +81,7 @@ void Describe(Archive& a, InsertRecord& s) {
   a.Required("objects", s.objects, "The inserted objects within range.");
   a.Optional("split", s.split, "Part of a data set that the recording is of.");
   a.Optional("source_xxh3", s.source_hash, "Hash of the recorded cloud.");
+  a.Optional("certificate", s.frame.certificate, "What is known of its numerical error.");
   a.Required("files", s.frame.files, "Of this frame.");
   a.Required("records_xxh3", s.frame.records_hash, "Hash of the frame's lines in the other files.");
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/certify/certified_figures.h"
 #include "core/io/run/frame_record.h"
 #include "core/scenario/value_type.h"
 
@@ -45,6 +46,7 @@ struct InsertRunRecord {
   std::uint32_t first_frame{};
   std::uint32_t num_frames{};
   std::optional<InsertSourceRecord> source{};
+  std::optional<double> certify{};  ///< Share of the time that certificates may take.
 };
 void Describe(Archive& a, InsertRunRecord& s);
 
@@ -52,7 +54,8 @@ void Describe(Archive& a, InsertRunRecord& s);
 struct InsertManifestRecord {
   InsertRunRecord run{};
   std::vector<std::string> remarks{};
-  NamedValues<std::string> files{};  ///< The hashes of all files but those of frames.
+  std::optional<RunCertificate> certificate{};  ///< If it is certified.
+  NamedValues<std::string> files{};             ///< The hashes of all files but those of frames.
 };
 void Describe(Archive& a, InsertManifestRecord& s);
 
@@ -93,7 +96,8 @@ void Describe(Archive& a, InsertPoseRecord& s);
 
 /// A line of insert.jsonl, which states that a frame is complete.
 struct InsertRecord {
-  /// Its number, stamp, poses, files and number of points, and the hash of its other lines.
+  /// Its number, stamp, poses, files, number of points and certificate, and the hash of its other
+  /// lines.
   FrameRecord frame{};
   std::string source{};  ///< Name of the recorded file.
   std::string plan_hash{};

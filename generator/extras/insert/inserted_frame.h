@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/certify/certificate.h"
 #include "railcast/io/recording.h"
 #include "railcast/outcome.h"
 
@@ -46,6 +47,8 @@ struct InsertedFrame {
   std::vector<SlotEdit> edits;  ///< By slot.
   /// The objects with their boxes, in order of the plan, visible or not.
   std::vector<RecordedObject> objects;
+  /// If it was asked for; labels are the plan's.
+  std::optional<FrameCertificate> certificate{};
 };
 
 }  // namespace railcast

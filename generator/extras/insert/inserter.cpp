@@ -201,7 +201,10 @@ struct Inserter::Parts {
   std::vector<std::int64_t> frame_times_ns;
   ScreenedScan scan;
   ObjectSurvey survey;
+  std::optional<CertifySpec> certify{};
+  std::optional<ScreenedCertifier> certifier{};
 
+  void UseCertificates(const ScenarioSpec& scenario, double cost_share);
   void PutReturns(const RecordedFirings& firings,
                   const RecordedReturns& returns,
                   const ChangedFiring& changed,
@@ -220,7 +223,19 @@ struct Inserter::Parts {
                                                       const std::vector<ObjectView>& views);
 };
 
-Inserter::Inserter(const InsertPlan& plan, int num_threads) {
+void Inserter::Parts::UseCertificates(const ScenarioSpec& scenario, double cost_share) {
+  if (world->objects().empty()) {
+    throw InputError("--certify: must be left out: the plan has no objects, which rungs differ in");
+  }
+  certifier.emplace(scenario, cost_share, spec.detector, *world);
+  scan.UseVariants(certifier->certifier().variants());
+  certify.emplace(CertifySpec{.cost_share = cost_share, .rungs = certifier->certifier().rungs()});
+  for (const SceneObject& object : world->objects()) {
+    certify->objects.emplace(object.instance, object.name);
+  }
+}
+
+Inserter::Inserter(const InsertPlan& plan, int num_threads, std::optional<double> certify) {
   const SimulatorSpec spec = SimulatorSpecOf(plan.scenario);
   // All objects are told of, however far they are.
   constexpr double kAnywhere_m = std::numeric_limits<double>::infinity();
@@ -231,9 +246,14 @@ Inserter::Inserter(const InsertPlan& plan, int num_threads) {
                 .frame_times_ns = plan.frame_times_ns,
                 .scan{plan.world, plan.scenario.materials, spec, num_threads},
                 .survey{*plan.world, LabelTable(plan.scenario.labels), kAnywhere_m, OutputSpec{}}});
+  if (certify) parts_->UseCertificates(plan.scenario, *certify);
 }
 
 Inserter::~Inserter() = default;
+
+const std::optional<CertifySpec>& Inserter::certify() const {
+  return parts_->certify;
+}
 
 void Inserter::Parts::PutAdded(const RecordedFirings& firings,
                                const RecordedReturns& returns,
@@ -367,12 +387,19 @@ InsertedFrame Inserter::Insert(const RecordedFirings& firings, std::uint32_t fra
   InsertedFrame inserted;
   inserted.recorded = firings.recorded;
   RecordedReturns returns = ReturnsIn(firings, parts.spec.detector, parts.scale);
-  ScreenedFrame screened = parts.scan.Scan({.index = frame_index,
-                                            .stamp_ns = time_ns,
-                                            .pattern = firings.pattern,
-                                            .first = returns.first,
-                                            .returns = returns.screens},
-                                           firings.recorded.frame.returns);
+  const RecordedScan recorded = {.index = frame_index,
+                                 .stamp_ns = time_ns,
+                                 .pattern = firings.pattern,
+                                 .first = returns.first,
+                                 .returns = returns.screens};
+  ScreenedScan::Certify certify;
+  if (parts.certifier) {
+    certify = [&](const ScreenedFrame& made, const std::vector<bool>& is_near,
+                  const ScreenedScan::MakeAnew& make) {
+      inserted.certificate = parts.certifier->Certify(recorded, made, is_near, make);
+    };
+  }
+  ScreenedFrame screened = parts.scan.Scan(recorded, firings.recorded.frame.returns, certify);
   returns.power_kept = std::move(screened.power_kept);
   if (!firings.recorded.Has("power_ratio")) std::ranges::fill(returns.power_kept, 1.0F);
   parts.PutFirings(firings, returns, screened.firings, inserted);

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
+#include "core/certify/certified_figures.h"
 #include "generator/extras/insert/insert_plan.h"
 #include "generator/extras/insert/inserted_frame.h"
 #include "generator/extras/insert/recorded_firings.h"
@@ -13,9 +15,14 @@ namespace railcast {
 class Inserter {
  public:
   /// @param num_threads 0 = all cores.
-  /// @throws InputError if the plan cannot be simulated.
-  Inserter(const InsertPlan& plan, int num_threads);
+  /// @param certify Share of the frames' time that their certificates may take; absent: they have
+  ///   none.
+  /// @throws InputError if the plan cannot be simulated or certified.
+  Inserter(const InsertPlan& plan, int num_threads, std::optional<double> certify = {});
   ~Inserter();
+
+  /// What the certificates are about, if frames have them.
+  [[nodiscard]] const std::optional<CertifySpec>& certify() const;
 
   /// The result depends on the plan, the frame and its index alone. One caller at a time.
   /// @param frame_index Counted from 0 in the recording.

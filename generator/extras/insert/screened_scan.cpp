@@ -73,19 +73,36 @@ using WorkOfThreads = tbb::enumerable_thread_specific<BeamTracer::Work>;
 }  // namespace
 
 struct ScreenedScan::Parts {
-  SimulatorSpec spec;
+  /// One way of making firings.
+  struct Way {
+    SimulatorSpec spec;
+    std::unique_ptr<const BeamTracer> tracer{};
+    std::unique_ptr<const Detector> unfailing{};  // Loses no pulses by chance.
+    std::unique_ptr<WorkOfThreads> work{};
+  };
+
+  Way own;
   std::uint16_t first_material;
   std::vector<Material> materials;
   FrameScenes scenes;
   std::unique_ptr<tbb::global_control> parallelism;
   tbb::task_arena arena;
   std::uint32_t num_rows = 0;
-  std::unique_ptr<const BeamTracer> tracer{};
-  std::unique_ptr<const Detector> unfailing{};  // Loses no pulses by chance.
-  std::unique_ptr<WorkOfThreads> work{};
+  std::vector<Way> variants{};
+
+  /// The firings of a frame that are made, in the order in which they are traced.
+  struct Wanted {
+    const RecordedScan& recorded;
+    const FrameScene& scene;
+    std::uint32_t duration_ns;
+    std::uint32_t returns;
+    std::vector<std::uint32_t> order;
+    const std::vector<bool>& is_near;  ///< Whether they may meet an object.
+  };
 
   /// One frame on its way.
   struct Job {
+    const Way& way;
     const RecordedScan& recorded;
     const CastFrame& cast;
     const Screens& screens;
@@ -97,8 +114,10 @@ struct ScreenedScan::Parts {
   };
 
   void UseRows(std::uint32_t rows, double rate_hz);
-  [[nodiscard]] ReturnRule RuleFor(std::uint32_t returns) const;
-  [[nodiscard]] CastFrame CastOf(const FrameScene& scene,
+  [[nodiscard]] std::vector<bool> NearObjects(const RecordedScan& recorded,
+                                              double beside_rad) const;
+  [[nodiscard]] CastFrame CastOf(const Way& way,
+                                 const FrameScene& scene,
                                  const std::vector<Surface>& surfaces,
                                  const Screens& screens,
                                  std::uint32_t duration_ns) const;
@@ -110,10 +129,15 @@ struct ScreenedScan::Parts {
                 Kind kind,
                 std::vector<ChangedFiring>& changed);
   void Make(Job& job, const std::vector<std::uint32_t>& order, Kind kind);
+  [[nodiscard]] ScreenedFrame MakeFirings(const Way& way, const Wanted& wanted, bool has_views);
+  [[nodiscard]] std::vector<std::vector<ChangedFiring>> MakeAnew(
+      const Wanted& all, const std::vector<bool>& is_wanted);
   [[nodiscard]] std::vector<ObjectView> ViewObjects(const Job& job,
                                                     const FrameScene& scene,
                                                     const std::vector<std::uint32_t>& order);
-  [[nodiscard]] ScreenedFrame Scan(const RecordedScan& recorded, std::uint32_t returns);
+  [[nodiscard]] ScreenedFrame Scan(const RecordedScan& recorded,
+                                   std::uint32_t returns,
+                                   const Certify& certify);
 };
 
 ScreenedScan::ScreenedScan(std::shared_ptr<const World> world,
@@ -127,7 +151,7 @@ ScreenedScan::ScreenedScan(std::shared_ptr<const World> world,
       .vehicle_from_sensor = spec.vehicle_from_sensor * spec.nominal_from_true};
   const int num_workers = num_threads > 0 ? num_threads : tbb::info::default_concurrency();
   parts_.reset(new Parts{
-      .spec = ForRecorded(spec),
+      .own{ForRecorded(spec)},
       .first_material =
           static_cast<std::uint16_t>(library.materials().size() - kNumScreenMaterials),
       .materials = library.materials(),
@@ -142,9 +166,21 @@ ScreenedScan::ScreenedScan(std::shared_ptr<const World> world,
 
 ScreenedScan::~ScreenedScan() = default;
 
-ScreenedFrame ScreenedScan::Scan(RecordedScan recorded, std::uint32_t returns) {
+void ScreenedScan::UseVariants(const std::vector<FiringVariant>& variants) {
+  Parts& parts = *parts_;
+  for (const FiringVariant& variant : variants) {
+    SimulatorSpec spec = parts.own.spec;
+    spec.detector.effects = variant.effects;
+    spec.detector.beam.footprint_rays = variant.footprint_rays;
+    parts.variants.push_back({ForRecorded(std::move(spec))});
+  }
+}
+
+ScreenedFrame ScreenedScan::Scan(const RecordedScan& recorded,
+                                 std::uint32_t returns,
+                                 const Certify& certify) {
   ScreenedFrame frame;
-  parts_->arena.execute([&] { frame = parts_->Scan(recorded, returns); });
+  parts_->arena.execute([&] { frame = parts_->Scan(recorded, returns, certify); });
   return frame;
 }
 
@@ -152,36 +188,47 @@ void ScreenedScan::Parts::UseRows(std::uint32_t rows, double rate_hz) {
   if (rows == num_rows) return;
   num_rows = rows;
   const ScanPattern pattern = AnyPatternOf(rows, rate_hz);
-  tracer = std::make_unique<const BeamTracer>(spec, materials, pattern);
-  DetectorSpec without_dropout = spec.detector;
-  without_dropout.effects.sensor_dropout = false;
-  unfailing = std::make_unique<const Detector>(without_dropout,
-                                               DetectorSetting{.num_channels = rows, .snow = {}});
-  work = std::make_unique<WorkOfThreads>([used = tracer.get()] { return BeamTracer::Work(*used); });
-  if (tracer->casts_beams()) scenes.UseBeams();
+  const auto use = [&](Way& way) {
+    way.tracer = std::make_unique<const BeamTracer>(way.spec, materials, pattern);
+    DetectorSpec without_dropout = way.spec.detector;
+    without_dropout.effects.sensor_dropout = false;
+    way.unfailing = std::make_unique<const Detector>(
+        without_dropout, DetectorSetting{.num_channels = rows, .snow = {}});
+    way.work = std::make_unique<WorkOfThreads>(
+        [used = way.tracer.get()] { return BeamTracer::Work(*used); });
+    if (way.tracer->casts_beams()) scenes.UseBeams();
+  };
+  use(own);
+  for (Way& way : variants) use(way);
 }
 
-ReturnRule ScreenedScan::Parts::RuleFor(std::uint32_t returns) const {
-  const EffectSet& effects = spec.detector.effects;
-  const ReceiverSpec& receiver = spec.detector.receiver;
+namespace {
+
+ReturnRule RuleFor(const DetectorSpec& detector, std::uint32_t returns) {
+  const EffectSet& effects = detector.effects;
+  const ReceiverSpec& receiver = detector.receiver;
   return {ModeOf(receiver.return_mode, returns),
           effects.dead_time ? static_cast<float>(DeadLength_m(receiver)) : 0.0F,
           effects.saturation ? static_cast<float>(receiver.saturation_power_ratio.value_or(0.0))
                              : 0.0F};
 }
 
-CastFrame ScreenedScan::Parts::CastOf(const FrameScene& scene,
+}  // namespace
+
+CastFrame ScreenedScan::Parts::CastOf(const Way& way,
+                                      const FrameScene& scene,
                                       const std::vector<Surface>& surfaces,
                                       const Screens& screens,
                                       std::uint32_t duration_ns) const {
   CastFrame cast{scene.index, scene.poses,    scene,
                  surfaces,    &scene.wires(), scene.window->window_from_world};
   if (scene.motion) cast.motion = &*scene.motion;
-  if (spec.detector.effects.spray && HasSpray(spec.detector)) {
-    cast.spray = SprayCloudsOf(scenes.world(), spec.detector.weather, {scene.stamp_ns, duration_ns},
+  const DetectorSpec& detector = way.spec.detector;
+  if (detector.effects.spray && HasSpray(detector)) {
+    cast.spray = SprayCloudsOf(scenes.world(), detector.weather, {scene.stamp_ns, duration_ns},
                                cast.window_from_world);
   }
-  cast.mirrors = tracer->MirrorsAmong(surfaces, cast.window_from_world);
+  cast.mirrors = way.tracer->MirrorsAmong(surfaces, cast.window_from_world);
   cast.takes_no_rays = true;
   cast.besides = &screens;
   return cast;
@@ -192,17 +239,18 @@ void ScreenedScan::Parts::MakeTile(const Job& job,
                                    std::size_t tile,
                                    Kind kind,
                                    std::vector<ChangedFiring>& changed) {
-  BeamTracer::Work& mine = work->local();
+  const BeamTracer& tracer = *job.way.tracer;
+  BeamTracer::Work& mine = job.way.work->local();
   EchoTiles& echoes = mine.echoes;
   if (kind == Kind::kTraced) {
-    tracer->MakeEchoes(job.cast, firings, tile, mine);
+    tracer.MakeEchoes(job.cast, firings, tile, mine);
   } else {
-    tracer->MakeKnownEchoes(job.cast, firings, tile, mine, [&](EchoTiles& empty) {
-      job.screen_echoes.Put(tracer->detector(), empty);
+    tracer.MakeKnownEchoes(job.cast, firings, tile, mine, [&](EchoTiles& empty) {
+      job.screen_echoes.Put(tracer.detector(), empty);
     });
   }
   job.screen_echoes.Place(echoes);
-  const Detector& detector = kind == Kind::kScreens ? *unfailing : tracer->detector();
+  const Detector& detector = kind == Kind::kScreens ? *job.way.unfailing : tracer.detector();
   detector.Detect({mine.rays, job.world_from_window, SecondsFromNs(job.recorded.stamp_ns)}, echoes);
   job.screen_echoes.Judge(echoes);
   firings.MoveToOrigins(tile, echoes);
@@ -247,8 +295,9 @@ std::vector<ObjectView> ScreenedScan::Parts::ViewObjects(const Job& job,
   ViewCounter views(job.cast, scenes.world(), scenes.ObjectsAlone(scene));
   if (!order.empty()) {
     const FiringTiles firings(job.recorded.pattern, order);
-    tbb::parallel_for(std::size_t{0}, firings.num_tiles(),
-                      [&](std::size_t tile) { views.Add(*tracer, firings, tile, work->local()); });
+    tbb::parallel_for(std::size_t{0}, firings.num_tiles(), [&](std::size_t tile) {
+      views.Add(*job.way.tracer, firings, tile, job.way.work->local());
+    });
   }
   return views.Total();
 }
@@ -272,24 +321,32 @@ std::vector<std::uint32_t> Those(const std::vector<std::uint32_t>& order,
 
 }  // namespace
 
-ScreenedFrame ScreenedScan::Parts::Scan(const RecordedScan& recorded, std::uint32_t returns) {
-  ScreenedFrame frame;
-  const ScanPattern& pattern = recorded.pattern;
-  frame.views.resize(scenes.world().objects().size());
-  if (pattern.num_firings() == 0) return frame;
-  UseRows(pattern.rows, pattern.rate_hz);
-  const std::uint32_t duration_ns = *std::ranges::max_element(pattern.time_ns);
-  scenes.UseDuration(duration_ns);
-  BegunFrame begun = scenes.Begin(recorded.index, recorded.stamp_ns);
-  const FrameScene& scene = scenes.SceneOf(begun);
+std::vector<bool> ScreenedScan::Parts::NearObjects(const RecordedScan& recorded,
+                                                   double beside_rad) const {
+  std::vector<std::size_t> objects(scenes.world().objects().size());
+  std::iota(objects.begin(), objects.end(), std::size_t{0});
+  return BeamsNearObjects(
+      scenes.world(), objects, recorded.pattern,
+      {.stamp_ns = recorded.stamp_ns,
+       .vehicle_from_sensor = own.spec.vehicle_from_sensor * own.spec.nominal_from_true,
+       .beside_rad = beside_rad,
+       .range_max_m = own.spec.detector.range_max_m});
+}
 
+ScreenedFrame ScreenedScan::Parts::MakeFirings(const Way& way,
+                                               const Wanted& wanted,
+                                               bool has_views) {
+  ScreenedFrame frame;
+  const auto& [recorded, scene, duration_ns, returns, order, is_near] = wanted;
+  const DetectorSpec& detector = way.spec.detector;
   ScreenSurfaces surfaces{.all = scene.surfaces(), .alone = {}};
   const Screens screens =
-      MakeScreens(spec.detector, recorded.first, recorded.returns, first_material, surfaces);
-  const CastFrame cast = CastOf(scene, surfaces.all, screens, duration_ns);
-  const ReturnRule rule = RuleFor(returns);
-  const ScreenEchoes screen_echoes(spec.detector, rule, cast, screens, surfaces);
-  Job job{.recorded = recorded,
+      MakeScreens(detector, recorded.first, recorded.returns, first_material, surfaces);
+  const CastFrame cast = CastOf(way, scene, surfaces.all, screens, duration_ns);
+  const ReturnRule rule = RuleFor(detector, returns);
+  const ScreenEchoes screen_echoes(detector, rule, cast, screens, surfaces);
+  Job job{.way = way,
+          .recorded = recorded,
           .cast = cast,
           .screens = screens,
           .screen_echoes = screen_echoes,
@@ -298,20 +355,11 @@ ScreenedFrame ScreenedScan::Parts::Scan(const RecordedScan& recorded, std::uint3
           .changed = frame.firings,
           .power_kept = frame.power_kept};
   frame.power_kept.assign(recorded.returns.size(), 1.0F);
-  if (cast.motion != nullptr) job.velocities.emplace(spec.detector, cast);
-  std::vector<std::size_t> objects(scenes.world().objects().size());
-  std::iota(objects.begin(), objects.end(), std::size_t{0});
-  const std::vector<bool> is_near =
-      BeamsNearObjects(scenes.world(), objects, pattern,
-                       {.stamp_ns = recorded.stamp_ns,
-                        .vehicle_from_sensor = spec.vehicle_from_sensor * spec.nominal_from_true,
-                        .beside_rad = BesideBeam_rad(spec.detector),
-                        .range_max_m = spec.detector.range_max_m});
-  const std::vector<std::uint32_t> order = TracingOrder(pattern);
+  if (cast.motion != nullptr) job.velocities.emplace(detector, cast);
   const auto near = Those(order, [&](std::uint32_t firing) { return is_near[firing]; });
   Make(job, near, Kind::kTraced);
-  if (ChangesEmptyBeams(spec.detector)) {
-    std::vector<bool> is_met(pattern.num_firings());
+  if (ChangesEmptyBeams(detector)) {
+    std::vector<bool> is_met(recorded.pattern.num_firings());
     for (const std::uint32_t firing : near) is_met[firing] = screens.met(firing) != 0;
     const auto make = [&](Kind kind, bool has_screens) {
       Make(job,
@@ -325,7 +373,71 @@ ScreenedFrame ScreenedScan::Parts::Scan(const RecordedScan& recorded, std::uint3
     make(Kind::kEmpty, false);
   }
   std::ranges::sort(frame.firings, {}, &ChangedFiring::firing);
-  frame.views = ViewObjects(job, scene, near);
+  if (has_views) frame.views = ViewObjects(job, scene, near);
+  return frame;
+}
+
+std::vector<std::vector<ChangedFiring>> ScreenedScan::Parts::MakeAnew(
+    const Wanted& wanted, const std::vector<bool>& is_wanted) {
+  const RecordedScan& all = wanted.recorded;
+  // Without the screens of all others, which take longer than the trace of a few.
+  RecordedScan few{.index = all.index,
+                   .stamp_ns = all.stamp_ns,
+                   .pattern = all.pattern,
+                   .first = {0},
+                   .returns = {}};
+  few.first.reserve(all.first.size());
+  for (std::size_t i = 0; i < is_wanted.size(); ++i) {
+    if (is_wanted[i]) {
+      few.returns.insert(few.returns.end(), all.returns.begin() + all.first[i],
+                         all.returns.begin() + all.first[i + 1]);
+    }
+    few.first.push_back(static_cast<std::uint32_t>(few.returns.size()));
+  }
+  const Wanted those{few,
+                     wanted.scene,
+                     wanted.duration_ns,
+                     wanted.returns,
+                     Those(wanted.order, [&](std::uint32_t firing) { return is_wanted[firing]; }),
+                     is_wanted};
+  std::vector<std::vector<ChangedFiring>> changed;
+  for (const Way& way : variants) {
+    changed.push_back(MakeFirings(way, those, false).firings);
+    for (ChangedFiring& firing : changed.back()) {
+      const std::uint32_t shift = all.first[firing.firing] - few.first[firing.firing];
+      for (ReturnNow& now : firing.returns) now.screen += now.screen == kNoScreen ? 0 : shift;
+      for (LostReturn& lost : firing.lost) lost.screen += shift;
+    }
+  }
+  return changed;
+}
+
+ScreenedFrame ScreenedScan::Parts::Scan(const RecordedScan& recorded,
+                                        std::uint32_t returns,
+                                        const Certify& certify) {
+  const ScanPattern& pattern = recorded.pattern;
+  if (pattern.num_firings() == 0) {
+    ScreenedFrame empty;
+    empty.views.resize(scenes.world().objects().size());
+    return empty;
+  }
+  UseRows(pattern.rows, pattern.rate_hz);
+  const std::uint32_t duration_ns = *std::ranges::max_element(pattern.time_ns);
+  scenes.UseDuration(duration_ns);
+  BegunFrame begun = scenes.Begin(recorded.index, recorded.stamp_ns);
+  const FrameScene& scene = scenes.SceneOf(begun);
+  double beside_rad = BesideBeam_rad(own.spec.detector);
+  for (const Way& way : variants) {
+    // What is traced in vain stays as it was recorded.
+    beside_rad = std::max(beside_rad, BesideBeam_rad(way.spec.detector));
+  }
+  const std::vector<bool> is_near = NearObjects(recorded, beside_rad);
+  const Wanted all{recorded, scene, duration_ns, returns, TracingOrder(pattern), is_near};
+  ScreenedFrame frame = MakeFirings(own, all, true);
+  if (certify) {
+    certify(frame, is_near,
+            [&](const std::vector<bool>& is_wanted) { return MakeAnew(all, is_wanted); });
+  }
   return frame;
 }
 

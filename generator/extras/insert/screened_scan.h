@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
+#include "core/certify/certifier.h"
 #include "generator/extras/insert/screen_echoes.h"
 #include "generator/extras/insert/screens.h"
 #include "railcast/lidar.h"
@@ -50,13 +52,57 @@ class ScreenedScan {
                int num_threads);
   ~ScreenedScan();
 
+  /// Tells the ways in which a Certify makes firings once more.
+  void UseVariants(const std::vector<FiringVariant>& variants);
+
+  /// Makes some firings of a frame in each variant, in the same scene and with the same random
+  /// draws; returns what each has changed, by variant and in the order of the firings.
+  using MakeAnew =
+      std::function<std::vector<std::vector<ChangedFiring>>(const std::vector<bool>& is_wanted)>;
+  /// Is called with a frame that is made.
+  /// @param is_near By firing, whether its beam may meet an object, in any of the variants.
+  using Certify = std::function<void(
+      const ScreenedFrame& made, const std::vector<bool>& is_near, const MakeAnew& make)>;
+
   /// One caller at a time.
   /// @param returns Slots for each firing.
-  [[nodiscard]] ScreenedFrame Scan(RecordedScan recorded, std::uint32_t returns);
+  /// @param certify May be empty.
+  [[nodiscard]] ScreenedFrame Scan(const RecordedScan& recorded,
+                                   std::uint32_t returns,
+                                   const Certify& certify = {});
 
  private:
   struct Parts;
   std::unique_ptr<Parts> parts_;
+};
+
+/// Certifies frames of a ScreenedScan: of the firings that may meet an object, some are made anew
+/// on rung `reference` and on those beside the plan's own. Counted are the echoes of firings that
+/// return something else than was recorded on one of these rungs; recorded returns have label 0.
+class ScreenedCertifier {
+ public:
+  /// @param cost_share What the certificates may take, as a share of the frames' own time.
+  /// @param own With the plan's effects.
+  /// @throws InputError as Certifier's constructor does.
+  ScreenedCertifier(const ScenarioSpec& scenario,
+                    double cost_share,
+                    const DetectorSpec& own,
+                    const World& world);
+
+  [[nodiscard]] const Certifier& certifier() const { return certifier_; }
+  /// For ScreenedScan::Certify. Depends on the frame alone.
+  [[nodiscard]] FrameCertificate Certify(const RecordedScan& recorded,
+                                         const ScreenedFrame& made,
+                                         const std::vector<bool>& is_near,
+                                         const ScreenedScan::MakeAnew& make);
+
+ private:
+  void FillGrid(const RecordedScan& recorded, const ScreenedFrame& made);
+
+  Certifier certifier_;  ///< Of a frame of one firing.
+  double
+      cost_of_others_{};  ///< What a firing takes that is not traced; in multiples of one that is.
+  Frame grid_;            ///< What the firings of a frame meet first.
 };
 
 }  // namespace railcast

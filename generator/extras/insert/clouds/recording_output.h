@@ -94,14 +94,19 @@ class RecordingOutput {
                                                               const InsertPlan& plan,
                                                               const InsertRange& range);
 
-/// Writes a sequence of railcast as it was; null if the recording is none.
-/// @param folder Where it is written.
+/// Where a sequence is written, and what its certificates are about, if it has any.
+struct SameSequenceChoices {
+  std::filesystem::path folder;
+  std::optional<CertifySpec> certify;
+};
+
+/// Writes a sequence of railcast as it was; null if the recording is none. Certificates are those
+/// of what was put in; those that the recording has are left out.
 /// @throws InputError if its clouds are not in files, or not in the sensor's axes, or as above.
-[[nodiscard]] std::unique_ptr<RecordingOutput> MakeSameSequence(
-    const RecordingInfo& info,
-    const InsertPlan& plan,
-    const InsertRange& range,
-    const std::filesystem::path& folder);
+[[nodiscard]] std::unique_ptr<RecordingOutput> MakeSameSequence(const RecordingInfo& info,
+                                                                const InsertPlan& plan,
+                                                                const InsertRange& range,
+                                                                const SameSequenceChoices& choices);
 
 /// Writes frames of any recording in a format of railcast's that has files for each frame: in
 /// KITTI's layout, or as clouds with frames.csv where poses are known.

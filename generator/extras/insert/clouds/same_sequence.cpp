@@ -120,6 +120,7 @@ class SameSequence : public RecordingOutput {
     EncodedFrame encoded;
     encoded.record = ReadFrameLine(lines.frame.text, lines.frame.place);
     encoded.record.files.clear();
+    encoded.record.certificate = inserted.certificate;
     for (const FrameFile& file : files) {
       encoded.record.files.push_back({file.name, ContentHash(file.bytes), file.bytes.size()});
     }
@@ -177,7 +178,7 @@ SequenceSpec SpecOfRecorded(const SequenceSummary& summary, const ScenarioSpec& 
 std::unique_ptr<RecordingOutput> MakeSameSequence(const RecordingInfo& info,
                                                   const InsertPlan& plan,
                                                   const InsertRange& range,
-                                                  const std::filesystem::path& folder) {
+                                                  const SameSequenceChoices& choices) {
   if (!std::filesystem::exists(info.source / kFramesFile)) return nullptr;
   const SequenceSummary summary = ReadSequenceSummary(info.source);
   const ScenarioSpec scenario = ReadScenario(info.source / kScenarioFile);
@@ -189,7 +190,8 @@ std::unique_ptr<RecordingOutput> MakeSameSequence(const RecordingInfo& info,
   if (!format.dataset && !IsInSensorAxes(scenario.output))
     refuse("must have its points in the sensor's axes");
   SequenceSpec spec = SpecOfRecorded(summary, scenario);
-  spec.directory = folder;
+  spec.directory = choices.folder;
+  spec.certify = choices.certify;
   return std::make_unique<SameSequence>(summary, std::move(spec), LabelNumbersOf(plan, info),
                                         range);
 }

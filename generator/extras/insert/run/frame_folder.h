@@ -44,6 +44,7 @@ class FrameFolder {
   ///   process, or the system refuses.
   explicit FrameFolder(FrameFolderSpec spec);
 
+  [[nodiscard]] const std::filesystem::path& directory() const { return spec_.directory; }
   [[nodiscard]] bool is_complete() const { return is_complete_; }
   [[nodiscard]] std::uint32_t num_done() const { return num_done_; }
   /// What was not as it was written when a complete folder was opened, a line each.

@@ -15,6 +15,7 @@
 #include "generator/extras/insert/plan/plan_check.h"
 #include "generator/extras/insert/run/insert_run.h"
 #include "generator/extras/recording_commands.h"
+#include "generator/run/run_options.h"
 #include "generator/run/run_plan.h"
 #include "generator/sequence/summary.h"
 #include "railcast/io/cloud_files.h"
@@ -88,11 +89,12 @@ void AddInsert(ProgramOptions& app, ProgramCommand& command) {
   const Option points_alone =
       insert.AddFlag("--points-alone", choices.may_use_points_alone,
                      "Take frames point by point where their firings cannot be found");
+  const Option certify = AddCertify(insert, choices.certify);
   const Option threads = AddThreads(insert, choices.num_threads);
   const Option check =
       insert.AddFlag("--check", options->is_check,
                      "Print what the objects meet in the recording, and write nothing");
-  for (const Option other : {format, points_alone, threads}) check.Excludes(other);
+  for (const Option other : {format, points_alone, certify, threads}) check.Excludes(other);
   AddSourceChoice(insert, options->choice);
   AddCaptureSensor(insert, options->choice.sensor);
   insert.Footer(

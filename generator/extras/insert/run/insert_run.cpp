@@ -15,8 +15,10 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/certify/certifier.h"
 #include "core/extras/insert/insert_record.h"
 #include "core/io/content_hash.h"
+#include "core/io/record/read_record.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/plausibility.h"
 #include "core/io/recording/recording_kinds.h"
@@ -78,12 +80,13 @@ std::optional<std::string> SplitOfRecording(const fs::path& recording) {
 std::unique_ptr<RecordingOutput> OutputOf(const InsertChoices& choices,
                                           const RecordingInfo& info,
                                           const InsertPlan& plan,
-                                          const InsertRange& range) {
+                                          const InsertRange& range,
+                                          const std::optional<CertifySpec>& certify) {
   if (choices.format != "same") {
     return MakeConvertedClouds(info, plan, ParseFrameFormat(choices.format), range.first);
   }
   const fs::path folder = choices.directory / kRecordingFolder;
-  if (auto sequence = MakeSameSequence(info, plan, range, folder)) return sequence;
+  if (auto sequence = MakeSameSequence(info, plan, range, {folder, certify})) return sequence;
   if (auto clouds = MakeSameClouds(info, plan, range)) return clouds;
   if (auto copy = MakeSameCopy(info, folder)) return copy;
   throw InputError(
@@ -107,7 +110,8 @@ InsertRunRecord RecordOfRun(const InsertChoices& choices,
                       .format = choices.format,
                       .may_use_points_alone = choices.may_use_points_alone,
                       .first_frame = range.first,
-                      .num_frames = range.num};
+                      .num_frames = range.num,
+                      .certify = CertifiedShareOf(choices.certify)};
   if (run.recording.empty()) {
     run.recording = choices.recording.lexically_normal().generic_string();
   }
@@ -176,8 +180,8 @@ class InsertRun {
         split_(SplitOfRecording(recording.info().source)),
         labels_(LabelTable(plan.scenario.labels), recording.info(), {}),
         finder_(recording.info(), plan.scenario.lidar.scan, choices.may_use_points_alone),
-        inserter_(plan, choices.num_threads),
-        output_(OutputOf(choices, recording.info(), plan, range_)),
+        inserter_(plan, choices.num_threads, CertifiedShareOf(choices.certify)),
+        output_(OutputOf(choices, recording.info(), plan, range_, inserter_.certify())),
         run_(RecordOfRun(choices, recording.info(), plan, range_)),
         folder_({.directory = choices.directory,
                  .made = "an insertion",
@@ -279,12 +283,24 @@ class InsertRun {
 
   void Insert(FrameOnWay& way) {
     way.inserted = inserter_.Insert(way.firings, way.frame);
+    if (way.inserted.certificate) UseNumbers(*way.inserted.certificate);
     UsePlannedMotion(plan_, way.frame, way.inserted.recorded);
+  }
+
+  // Labels as labels.json has them, which are the plan's where clouds have SemanticKITTI's.
+  void UseNumbers(FrameCertificate& certificate) const {
+    if (recording_.info().has_kitti_labels) return;
+    for (StratumCount& stratum : certificate.strata)
+      stratum.label = labels_.Of(stratum.label, false);
+    for (DrawnFiring& drawn : certificate.drawn) {
+      for (CertifiedEcho& echo : drawn.echoes) echo.label = labels_.Of(echo.label, false);
+    }
   }
 
   void Encode(FrameOnWay& way) const {
     way.output = output_->Encode(way.firings, way.inserted, way.frame);
     way.entry = InsertEntry(way.firings, way.inserted, plan_, way.frame);
+    way.entry.frame.certificate = way.inserted.certificate;
     if (split_) way.entry.split = *split_;
     way.entry.source_hash = way.output.source_hash;
     if (way.output.has_slots) MakeSidecars(way);
@@ -314,7 +330,21 @@ class InsertRun {
     output_->Finish();
     std::vector<std::string> others;
     for (const std::string& name : output_->WholeFiles()) others.push_back(InRecording(name));
-    folder_.Finish(InsertManifestRecord{.run = run_, .remarks = plan_.remarks}, others);
+    folder_.Finish(
+        InsertManifestRecord{
+            .run = run_, .remarks = plan_.remarks, .certificate = CertificateOfFrames()},
+        others);
+  }
+
+  [[nodiscard]] std::optional<RunCertificate> CertificateOfFrames() const {
+    if (!inserter_.certify()) return std::nullopt;
+    CertificateSums sums(*inserter_.certify());
+    LineReader lines(folder_.directory() / kInsertFile);
+    while (const auto line = lines.Next()) {
+      const auto certificate = ReadInsertLine(line->text, line->place).frame.certificate;
+      if (certificate) sums.Add(*certificate);
+    }
+    return sums.Result(LabelsOf(recording_.info(), plan_));
   }
 
   const InsertPlan& plan_;
@@ -357,6 +387,9 @@ std::string ReportOf(const fs::path& directory) {
                                 : NumberText(counts.first) + " points in " +
                                       NumberText(counts.second) + " frames\n";
   }
+  const fs::path file = directory / kManifestFile;
+  const auto manifest = ReadRecord<InsertManifestRecord>(ReadManifestText(file), ShownPath(file));
+  if (manifest.certificate) report += CertificateText(*manifest.certificate);
   return report + "written to " + ShownPath(directory) + "\n";
 }
 
@@ -399,6 +432,11 @@ InsertResult RunInsert(const InsertChoices& choices,
                        const InsertPlan& plan,
                        const RunHooks& hooks) {
   CheckIsApart(choices);
+  if (choices.may_use_points_alone && CertifiedShareOf(choices.certify)) {
+    throw InputError(
+        "--certify: must be left out with --points-alone, where firings without a point are not "
+        "known");
+  }
   const auto recording = OpenRecording(choices.recording);
   InsertResult result = InsertRun(choices, plan, hooks, *recording).Run();
   if (result.is_complete) result.text = ReportOf(choices.directory);

@@ -22,7 +22,8 @@ struct InsertChoices {
   std::uint32_t first_frame = 0;
   std::optional<std::uint32_t> last_frame{};  ///< Absent: the recording's last.
   bool may_use_points_alone = false;
-  int num_threads = 0;    ///< 0 = all cores.
+  std::string certify = "off";  ///< As CertifiedShareOf() takes it.
+  int num_threads = 0;          ///< 0 = all cores.
   bool is_known = false;  ///< Whether the folder is known to be of this run, whatever it says.
 };
 
