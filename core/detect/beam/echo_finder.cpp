@@ -94,7 +94,7 @@ void EchoFinder::AppendWave(const std::vector<Component>& components) {
   const std::size_t size = (range_m_.size() + kWaveLanes - 1) / kWaveLanes * kWaveLanes;
   range_m_.resize(size, components.front().range_m);
   peak_.resize(size, 0.0F);
-  inverse_variance_.resize(size, 1.0F);
+  inverse_variance_.resize(size, 1.0F / pulse2);  // The largest: none reaches farther for it.
 }
 
 void EchoFinder::AddPeak(const WavePeak& peak) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -25,6 +26,7 @@ TEST(SampleWave, IsTheSumOfItsComponents) {
     const float sigma_m = kPulseSigma_m * (1.0F + UnitFloat(words[2]));
     inverse_variance[i] = 1.0F / (sigma_m * sigma_m);
   }
+  std::ranges::sort(range_m);
   std::vector<float> samples(kNumSamples);
   AvailableKernels().front().sample_wave(
       {kNumComponents, range_m.data(), peak.data(), inverse_variance.data()}, kFirst_m, kStep_m,
