@@ -34,14 +34,19 @@ namespace railcast {
   return (rank_sum - 0.5 * num_second * (num_second + 1.0)) / (num_first * num_second);
 }
 
-/// A row of features for each sample, and the class of each.
+/// A row of features for each sample, the class of each, and the part in which it is scored.
 struct TwoSamples {
   std::vector<std::vector<double>> features;
   std::vector<bool> is_second;
+  std::vector<std::size_t> part;
 
-  void Add(std::vector<double> row, bool second) {
+  /// The sample goes to the next of five parts.
+  void Add(std::vector<double> row, bool second) { Add(std::move(row), second, part.size() % 5); }
+  /// @param of_object Part of all samples that have something in common, such as their object.
+  void Add(std::vector<double> row, bool second, std::size_t of_object) {
     features.push_back(std::move(row));
     is_second.push_back(second);
+    part.push_back(of_object);
   }
   [[nodiscard]] std::vector<double> Column(std::size_t k) const {
     std::vector<double> column;
@@ -57,10 +62,10 @@ struct TwoSamples {
 }
 
 /// The area that a logistic regression on the features, their squares and products reaches on
-/// samples which it has not seen: each fifth is scored by what the other four fifths have taught,
-/// and the areas of the fifths are averaged. Ridge of 1 on standardised features.
+/// samples which it has not seen: each part is scored by what the others have taught, and the areas
+/// of the parts are averaged. Ridge of 1 on standardised features.
 [[nodiscard]] inline double CrossValidatedArea(const TwoSamples& samples) {
-  constexpr std::size_t kFolds = 5;
+  const std::size_t num_parts = 1 + *std::ranges::max_element(samples.part);
   const auto num = static_cast<Eigen::Index>(samples.features.size());
   const auto num_plain = static_cast<Eigen::Index>(samples.features.at(0).size());
   Eigen::MatrixXd plain(num, num_plain);
@@ -91,10 +96,10 @@ struct TwoSamples {
   inputs.conservativeResize(Eigen::NoChange, inputs.cols() + 1);
   inputs.rightCols(1).setOnes();
   double sum = 0.0;
-  for (std::size_t fold = 0; fold < kFolds; ++fold) {
+  for (std::size_t fold = 0; fold < num_parts; ++fold) {
     Eigen::VectorXd is_taught(num);
     for (Eigen::Index i = 0; i < num; ++i) {
-      is_taught[i] = static_cast<std::size_t>(i) % kFolds == fold ? 0.0 : 1.0;
+      is_taught[i] = samples.part[static_cast<std::size_t>(i)] == fold ? 0.0 : 1.0;
     }
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(inputs.cols());
     for (int step = 0; step < 12; ++step) {  // Newton's method.
@@ -117,7 +122,7 @@ struct TwoSamples {
     }
     sum += AreaUnderCurve(scores, is_second);
   }
-  return sum / static_cast<double>(kFolds);
+  return sum / static_cast<double>(num_parts);
 }
 
 }  // namespace railcast
