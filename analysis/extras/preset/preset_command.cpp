@@ -1,11 +1,14 @@
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "analysis/analysis_extras.h"
 #include "analysis/commands.h"
 #include "analysis/extras/preset/preset_comparison.h"
+#include "analysis/extras/preset/receiver_figures.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
+#include "core/base/error.h"
 #include "core/io/recording/source_choice.h"
 #include "core/program/version.h"
 #include "railcast/io/recording.h"
@@ -30,12 +33,23 @@ Sectors SectorsOf(const std::string& name) {
 
 int RunPreset(const PresetOptions& options, const std::string& command_line) {
   const tbb::global_control limit = LimitThreads(options.num_threads);
-  const ScenarioSpec scenario = PickSensor(ReadScenario(options.scenario), std::nullopt);
-  const auto recording = OpenRecording(WithChoice({options.source}, options.choice).front());
-  const PresetComparison comparison =
-      ComparePreset(*recording, scenario, SectorsOf(options.sectors));
+  const std::filesystem::path source = WithChoice({options.source}, options.choice).front();
+  const auto recording = OpenRecording(source);
   const RecordingInfo& info = recording->info();
-  Report report = MakePresetReport(comparison, info, scenario, command_line);
+  const std::string name = ShownPath(options.source);
+  Report report{.title = "Surfaces and receiver of " + name,
+                .command = command_line,
+                .facts = {{"Recording", info.kind}}};
+  if (!options.scenario.empty()) {
+    const ScenarioSpec scenario = PickSensor(ReadScenario(options.scenario), std::nullopt);
+    const PresetComparison comparison =
+        ComparePreset(*recording, scenario, SectorsOf(options.sectors));
+    report = MakePresetReport(comparison, info, scenario, command_line);
+  }
+  constexpr std::size_t kMostTurns = 12;
+  const std::vector<RecordedFrame> turns = WholeTurns(*OpenRecording(source), kMostTurns);
+  if (turns.empty()) throw InputError(name + ": must hold a whole turn as a grid (got none)");
+  report.sections.push_back(MakeReceiverSection(FindReceiverFigures(turns)));
   AddProvenance({info}, ProgramVersion(), report);
   EmitReport(report, options.output, "preset");
   return kExitSuccess;
@@ -45,17 +59,17 @@ void AddPreset(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<PresetOptions>();
   ProgramOptions preset = app.AddCommand(
       "preset",
-      "Compare a real sensor's recording with what a scenario's sensor measures on its planes");
+      "Say how a real sensor's recording shows surfaces and receiver, and compare it with what a "
+      "scenario's sensor measures on its planes");
   preset
       .AddOption("SOURCE", options->source,
                  "Capture or other recording of a sensor that stands, as grids")
       .Required();
   AddSourceChoice(preset, options->choice);
   AddCaptureSensor(preset, options->choice.sensor);
-  preset
-      .AddOption("--scenario", options->scenario,
-                 "Scenario whose sensor, rung, weather and materials are compared")
-      .Required();
+  preset.AddOption("--scenario", options->scenario,
+                   "Scenario whose sensor, rung, weather and materials are compared; without it "
+                   "the report is of surfaces and receiver alone");
   preset
       .AddOption("--sectors", options->sectors, "Which sectors of 30 deg take part: all, even, odd")
       .Check(Named({"all", "even", "odd"}))

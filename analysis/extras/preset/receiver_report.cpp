@@ -1,0 +1,60 @@
+#include <string>
+#include <utility>
+
+#include "analysis/extras/preset/receiver_figures.h"
+#include "analysis/report/chart_columns.h"
+#include "core/base/text.h"
+
+namespace railcast {
+
+Section MakeReceiverSection(const ReceiverFigures& figures) {
+  constexpr double kPercent = 100.0;
+  constexpr double kMm = 1e3;
+  Table table = {
+      "receiver",
+      "Surfaces and receiver",
+      "Intensities by their logarithm, on smooth surfaces, from 0.05 to 1; intervals by sectors of "
+      "10 deg. *Robust* is the usual surface; markings and edges add to what is *by squares*.",
+      ColumnsOf("figure: Figure; unit: Unit; value: Robust; rms: By squares"),
+      {},
+      true};
+  const auto add = [&](std::string name, const char* unit, double scale, const TwoDeviations& of) {
+    table.rows.push_back({std::move(name), unit, Scaled(of.robust, scale), Scaled(of.rms, scale)});
+  };
+  const auto add_one = [&](const char* name, const char* unit, double scale, const Estimate& of) {
+    table.rows.push_back({name, unit, Scaled(of, scale), std::string()});
+  };
+  if (figures.has_moved) {
+    for (const char* name : {"intensity from turn to turn", "range from turn to turn"}) {
+      table.rows.push_back({name, std::string(), std::string("moving"), std::string("moving")});
+    }
+  } else {
+    add("intensity from turn to turn", "%", kPercent, figures.intensity_noise);
+    add("range from turn to turn", "mm", kMm, figures.range_noise_m);
+  }
+  add_one("gain of single channels", "%", kPercent, figures.channel_gain);
+  for (std::size_t lag = 0; lag < figures.texture.size(); ++lag) {
+    add("texture at " + ShortText(kTextureLags_m.at(lag)) + " m", "", 1.0, figures.texture.at(lag));
+  }
+  add_one("lost at depth jumps of 3 to 10 m", "%", kPercent, figures.jumps.share);
+  add_one("firings lost at an edge: base", "", 1.0, figures.jumps.base);
+  add_one("firings lost at an edge: b, near side first", "mm", kMm, figures.jumps.near_first_m);
+  add_one("firings lost at an edge: b, near side last", "mm", kMm, figures.jumps.near_last_m);
+  add_one("interior holes", "%", kPercent, figures.holes);
+  Section section{
+      "receiver",
+      "Surfaces and receiver as the recording shows them",
+      {"Noise is what changes from turn to turn, in intensities from 0.12 to 0.25. A channel's "
+       "gain "
+       "sets it apart from its neighbours on the same surfaces. Texture is the semideviation of "
+       "log intensity along a ring, less the noise. At an edge, base + b (1 / near - 1 / far) / "
+       "step of azimuth firings are lost, as by a receiver at b beside the emitter; which side is "
+       "first, is by the order of columns."}};
+  if (figures.range_noise_m.rms.num == 0) {
+    section.paragraphs.emplace_back("Turns do not tell noise here: texture has it included.");
+  }
+  section.tables.push_back(std::move(table));
+  return section;
+}
+
+}  // namespace railcast

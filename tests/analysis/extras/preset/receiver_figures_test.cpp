@@ -1,0 +1,199 @@
+#include "analysis/extras/preset/receiver_figures.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/extras/preset/preset_comparison.h"
+#include "core/base/units.h"
+#include "tests/analysis/extras/preset/yard.h"
+
+namespace railcast {
+namespace {
+
+/// What a made recording shows.
+struct Truth {
+  double noise{}, gain{}, texture{}, range_noise_m{};
+  double base{}, near_last_m{};  ///< Firings lost at edges; none more with the near side first.
+  double speed_m{};              ///< Ahead, a turn.
+};
+
+constexpr std::size_t kRows = 40;
+constexpr std::size_t kColumns = 1800;
+constexpr std::size_t kPanel = 30;  // Columns.
+
+// A round wall at 10 m, before which every other stretch of 30 firings meets a panel, at 3 m in the
+// lower rings and at 6 m in the upper ones.
+std::vector<RecordedFrame> MakeTurns(const Truth& truth, std::size_t num_turns = 4) {
+  constexpr double kStep_rad = 2.0 * 3.14159265358979 / static_cast<double>(kColumns);
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> even;
+  std::vector<double> gain(kRows), texture(kRows * kColumns);
+  for (double& value : gain) value = truth.gain * normal(random);
+  for (double& value : texture) value = truth.texture * normal(random);
+  std::vector<RecordedFrame> turns(num_turns);
+  for (std::size_t turn = 0; turn < num_turns; ++turn) {
+    Frame& frame = turns[turn].frame;
+    frame.Resize(kRows, kColumns, 1);
+    turns[turn].is_grid = true;
+    turns[turn].fields = {"x", "y", "z", "intensity", "range_m", "ring", "column"};
+    for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+      const std::size_t row = slot / kColumns;
+      const std::size_t column = slot % kColumns;
+      const double azimuth_rad = -kStep_rad * static_cast<double>(column);
+      const double elevation_rad = RadFromDeg(0.5 * static_cast<double>(row) - 10.0);
+      const double near_m = row < kRows / 2 ? 3.0 : 6.0;
+      const bool is_near = column / kPanel % 2 == 1;
+      const bool is_before = column % kPanel == kPanel - 1;  // The last firing before an edge.
+      const double lost =
+          truth.base + (is_near ? 0.0 : truth.near_last_m) * (1.0 / near_m - 0.1) / kStep_rad;
+      const double range_m = (is_near ? near_m : 10.0) + truth.range_noise_m * normal(random) -
+                             truth.speed_m * static_cast<double>(turn) * std::cos(azimuth_rad);
+      const bool is_lost = is_before && even(random) < lost;
+      frame.range_m[slot] = is_lost ? NAN : static_cast<float>(range_m);
+      frame.x[slot] =
+          frame.range_m[slot] * static_cast<float>(std::cos(elevation_rad) * std::cos(azimuth_rad));
+      frame.y[slot] =
+          frame.range_m[slot] * static_cast<float>(std::cos(elevation_rad) * std::sin(azimuth_rad));
+      frame.z[slot] = frame.range_m[slot] * static_cast<float>(std::sin(elevation_rad));
+      frame.intensity[slot] = static_cast<float>(
+          0.18 * std::exp(gain[row] + texture[slot] + truth.noise * normal(random)));
+    }
+  }
+  return turns;
+}
+
+// At four standard errors of normal samples, but for the gain: 38 channels, of which each figure
+// takes three.
+TEST(ReceiverFigures, AreThoseOfAMadeRecording) {
+  const Truth truth{.noise = 0.09,
+                    .gain = 0.14,
+                    .texture = 0.05,
+                    .range_noise_m = 0.007,
+                    .base = 0.1,
+                    .near_last_m = 0.01};
+  const ReceiverFigures figures = FindReceiverFigures(MakeTurns(truth));
+  EXPECT_FALSE(figures.has_moved);
+  EXPECT_NEAR(figures.intensity_noise.robust.value, truth.noise, 0.003);
+  EXPECT_NEAR(figures.intensity_noise.rms.value, truth.noise, 0.003);
+  EXPECT_NEAR(figures.range_noise_m.robust.value, truth.range_noise_m, 2e-4);
+  EXPECT_NEAR(figures.channel_gain.value, truth.gain, 4.0 * truth.gain / std::sqrt(2.0 * 38.0));
+  for (const TwoDeviations& texture : figures.texture) {
+    EXPECT_NEAR(texture.robust.value, truth.texture, 0.005);
+    EXPECT_NEAR(texture.rms.value, truth.texture, 0.005);
+  }
+  // 40 rings with 60 edges in 4 turns, of which a quarter each loses 0.1, 0.1, 0.77 and 0.29.
+  EXPECT_NEAR(figures.jumps.share.value, 0.315, 4.0 * 0.4 / std::sqrt(9600.0));
+  EXPECT_NEAR(figures.jumps.base.value, truth.base, 0.03);
+  EXPECT_NEAR(figures.jumps.near_first_m.value, 0.0, 0.001);
+  EXPECT_NEAR(figures.jumps.near_last_m.value, truth.near_last_m, 0.001);
+  for (const Estimate& estimate : {figures.intensity_noise.rms, figures.jumps.base,
+                                   figures.jumps.near_last_m, figures.channel_gain}) {
+    EXPECT_LT(estimate.low, estimate.value);
+    EXPECT_GT(estimate.high, estimate.value);
+  }
+}
+
+TEST(ReceiverFigures, DoNotTellNoiseOfASensorThatMoves) {
+  const ReceiverFigures figures = FindReceiverFigures(
+      MakeTurns({.noise = 0.09, .texture = 0.05, .range_noise_m = 0.007, .speed_m = 0.03}));
+  EXPECT_TRUE(figures.has_moved);
+  EXPECT_FALSE(figures.intensity_noise.rms.is_enough());
+  EXPECT_NEAR(figures.texture[1].rms.value, std::hypot(0.09, 0.05), 0.005);
+}
+
+TEST(ReceiverFigures, OfOneTurnAndOfNoEdgesAreNotEnough) {
+  std::vector<RecordedFrame> turns = MakeTurns({.range_noise_m = 0.007}, 1);
+  for (std::size_t slot = 0; slot < turns[0].frame.num_slots(); ++slot) {
+    if (turns[0].frame.range_m[slot] < 8.0F) turns[0].frame.range_m[slot] = NAN;
+  }
+  const ReceiverFigures figures = FindReceiverFigures(turns);
+  EXPECT_FALSE(figures.range_noise_m.robust.is_enough());
+  EXPECT_FALSE(figures.jumps.share.is_enough());
+  EXPECT_FALSE(figures.jumps.base.is_enough());
+  EXPECT_TRUE(figures.texture[1].robust.is_enough());
+}
+
+std::string Text(const Estimate& estimate, double scale, const char* format = "%.1f") {
+  if (!estimate.is_enough()) return "–";
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), format, scale * estimate.value);
+  return text.data();
+}
+
+std::string WithEnds(const Estimate& estimate) {
+  if (!estimate.is_enough()) return "–";
+  std::array<char, 60> text{};
+  std::snprintf(text.data(), text.size(), "%.1f [%.1f, %.1f]", 1e3 * estimate.value,
+                1e3 * estimate.low, 1e3 * estimate.high);
+  return text.data();
+}
+
+std::string RowOf(const std::string& sensor, const ReceiverFigures& figures) {
+  const auto both = [&](const TwoDeviations& of, double scale) {
+    if (figures.has_moved) return std::string("moving");
+    if (!of.rms.is_enough()) return std::string("–");
+    return Text(of.robust, scale) + " (" + Text(of.rms, scale) + ")";
+  };
+  std::string row = "| " + sensor + " | " + both(figures.intensity_noise, 100.0) + " | " +
+                    Text(figures.channel_gain, 100.0) + " | ";
+  for (const TwoDeviations& texture : figures.texture) {
+    row +=
+        Text(texture.robust, 1.0, "%.2f") + (&texture == &figures.texture.back() ? " | " : " / ");
+  }
+  for (const TwoDeviations& texture : figures.texture) {
+    row += Text(texture.rms, 1.0, "%.2f") + (&texture == &figures.texture.back() ? " | " : " / ");
+  }
+  return row + Text(figures.jumps.share, 100.0) + " | " + Text(figures.jumps.base, 1.0, "%.2f") +
+         " | " + WithEnds(figures.jumps.near_first_m) + " | " +
+         WithEnds(figures.jumps.near_last_m) + " | " + Text(figures.holes, 100.0, "%.2f") + " | " +
+         both(figures.range_noise_m, 1e3) + " |";
+}
+
+// The table of docs/results/validation.md.
+TEST(RealReceivers, ShowWhatThePageSays) {
+  const std::string shared = RAILCAST_SHARED_DATA_DIR;
+  const std::string nebula = shared + "/lidar_packets_nebula/";
+  const std::vector<std::pair<std::string, std::string>> recordings = {
+      {"VLS-128", nebula + "vls128_single.pcap"},
+      {"VLP-16", nebula + "vlp16_dual.pcap"},
+      {"VLP-32C", nebula + "vlp32c_single.pcap"},
+      {"Pandar64", nebula + "pandar64.pcap"},
+      {"Pandar40P", shared + "/lidar_hesai_more/40p.db3"},
+      {"XT32", shared + "/lidar_hesai/captures/xt32.db3"},
+      {"QT128", shared + "/lidar_hesai/captures/qt128.db3"},
+      {"QT64", shared + "/lidar_hesai_more/qt64.db3"},
+      {"HDL-32E", shared + "/lidar_velodyne_more/hdl32e.pcap"},
+      {"OS1-128", shared + "/lidar_ouster/OS-1-128_v2.3.0_1024x10_lb_n3.pcap"},
+      {"OS2-128", shared + "/lidar_ouster/OS-2-128-U1_v2.3.0_1024x10.pcap"}};
+  std::ifstream file(RAILCAST_SOURCE_DIR "/docs/results/validation.md");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  std::size_t num = 0;
+  for (const auto& [sensor, path] : recordings) {
+    if (!std::filesystem::exists(path)) continue;
+    ++num;
+    const std::string row = RowOf(sensor, FindReceiverFigures(WholeTurns(*OpenRecording(path))));
+    std::puts(row.c_str());
+    EXPECT_THAT(page, testing::HasSubstr(row));
+  }
+  ScenarioSpec scenario = PresetScenario("vls128");
+  for (Material& material : scenario.materials) material.reflectivity = 0.18;
+  const std::string ours = RowOf("ours, a yard", FindReceiverFigures(RecordYard(scenario)));
+  std::puts(ours.c_str());
+  EXPECT_THAT(page, testing::HasSubstr(ours));
+  if (num == 0) GTEST_SKIP() << "no captures in " << shared;
+}
+
+}  // namespace
+}  // namespace railcast
