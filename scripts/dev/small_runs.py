@@ -68,6 +68,7 @@ ROWS = (
     ("railcast-analyze evaluate", "drive --out evaluate", ["evaluate/report.html", "evaluate/evaluate.json"], None),
     ("railcast-analyze sight", "drive.json --step-m 50 --out sight", ["sight/report.html", "sight/sight.json"], None),
     ("railcast-analyze study", "study.json --out study", ["study/report.html", "study/study.json"], None),
+    ("railcast-analyze study", "rare.json --rare --out rare", "Not detected in time", None),
     ("railcast-analyze dossier", "study --out dossier", ["dossier/dossier.pdf", "dossier/report.html"], None),
     ("railcast-analyze fit", "standing.pcap --scenario standing.json --out fit", ["fit/report.html", "fit/fitted.json"],
      None),
@@ -151,6 +152,8 @@ INPUTS = {
     "recipe_two.json": {"version": 1, "seed": 5, "num_scenarios": 1, "num_frames": 2, "bases": [{"file": "two.json"}],
                         "set": {"/weather": {"visibility_m": 60}}},
     "study.json": {"version": 1, "question": "Seen?", "recipe": "recipe.json"},
+    "rare.json": {"version": 1, "recipe": "recipe.json", "rare": {"per_stage": 100},
+                  "braking": {"reaction_s": 1, "deceleration_mps2": 2, "margin_m": 2}},
     "map.geojson": {"type": "FeatureCollection", "features": [
         {"type": "Feature", "properties": {"railway": "rail", "maxspeed": "80"},
          "geometry": {"type": "LineString", "coordinates": [[15.6 + 0.0005 * i, 48.2] for i in range(60)]}}]},

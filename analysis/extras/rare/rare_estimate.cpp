@@ -82,13 +82,24 @@ double UnknownShare(const WeightedTrials& trials) {
   return sum / static_cast<double>(std::max<std::size_t>(trials.weights.size(), 1));
 }
 
-bool HasAnyFailed(const RareEvidence& evidence) {
-  const auto any_of = [](const WeightedTrials& trials) {
-    return std::ranges::any_of(trials.scores, [](const RareScores& scores) {
-      return HasFailed(scores.cheap) || HasFailed(scores.dear);
-    });
-  };
-  return any_of(evidence.cheap[0]) || any_of(evidence.cheap[1]) || any_of(evidence.pairs);
+// On either level.
+std::uint64_t NumFailed(const RareEvidence& evidence) {
+  std::uint64_t num = 0;
+  for (const auto* trials : {&evidence.cheap[0], &evidence.cheap[1], &evidence.pairs}) {
+    num += static_cast<std::uint64_t>(
+        std::ranges::count_if(trials->scores, [](const RareScores& scores) {
+          return HasFailed(scores.cheap) || HasFailed(scores.dear);
+        }));
+  }
+  return num;
+}
+
+// Whether all trials were drawn by p.
+bool IsPlain(const RareEvidence& evidence) {
+  return evidence.pairs.weights.empty() &&
+         std::ranges::all_of(evidence.cheap, [](const WeightedTrials& trials) {
+           return std::ranges::count(trials.weights, 1.0) == std::ssize(trials.weights);
+         });
 }
 
 // "P is 0.0012 to 0.0015 by one".
@@ -97,7 +108,8 @@ std::string RangeText(const Estimate& estimate) {
   return NumberText(estimate.low) + " to " + NumberText(estimate.high);
 }
 
-std::string RefusalOf(const RareFigure& figure, double mean, double unknown) {
+// What speaks against the proposals.
+std::string FaultOfSearch(const RareFigure& figure) {
   const Estimate& one = figure.by_proposal[0];
   const Estimate& other = figure.by_proposal[1];
   if (one.is_enough() != other.is_enough() || one.low > other.high || other.low > one.high) {
@@ -112,10 +124,15 @@ std::string RefusalOf(const RareFigure& figure, double mean, double unknown) {
     return "one trial is " + NumberText(std::round(100.0 * figure.largest_share)) +
            " % of the sum: the search has missed where it comes from";
   }
-  if (unknown > kMostUnknown * mean) {
-    return "too many trials say neither yes nor no: a share of " + NumberText(unknown) + " of all";
-  }
-  return mean > 0.0 ? "" : "the levels disagree by more than the probability";
+  return "";
+}
+
+std::string RefusalOf(const RareFigure& figure, double mean, double unknown) {
+  std::string fault = figure.is_plain ? "" : FaultOfSearch(figure);
+  if (!fault.empty()) return fault;
+  if (mean <= 0.0) return "the levels disagree by more than the probability";
+  if (unknown <= kMostUnknown * mean) return "";
+  return "too many trials say neither yes nor no: a share of " + NumberText(unknown) + " of all";
 }
 
 }  // namespace
@@ -148,7 +165,8 @@ RareFigure EstimateRareFigure(const RareEvidence& evidence) {
   }
   const std::uint64_t num_dearest =
       evidence.pairs.weights.empty() ? figure.cheap.num : figure.correction.num;
-  if (!HasAnyFailed(evidence)) {
+  const std::uint64_t num_failed = NumFailed(evidence);
+  if (num_failed == 0) {
     figure.at_most = ExactPoissonRate(0, kDefensiveShare * static_cast<double>(num_dearest)).high;
     figure.refusal = "nothing failed";
     return figure;
@@ -157,11 +175,14 @@ RareFigure EstimateRareFigure(const RareEvidence& evidence) {
   figure.largest_share = *std::ranges::max_element(all_terms) /
                          std::accumulate(all_terms.begin(), all_terms.end(), 0.0);
   figure.effective = EffectiveOf(all_terms);
+  figure.is_plain = IsPlain(evidence);
   const double mean = figure.cheap.mean + figure.correction.mean;
   figure.refusal = RefusalOf(figure, mean, unknown);
   figure.probability = NotEnough(figure.cheap.num + figure.correction.num);
   if (figure.is_known()) {
-    figure.probability = IntervalOf(mean, squared_error, figure.effective, figure.probability.num);
+    figure.probability =
+        figure.is_plain ? Proportion(num_failed, figure.cheap.num)
+                        : IntervalOf(mean, squared_error, figure.effective, figure.probability.num);
   }
   return figure;
 }

@@ -10,6 +10,8 @@ namespace railcast {
 namespace {
 
 constexpr double kEliteShare = 0.1;
+/// Of failures among trials by p, from which on no other law saves as much as its search costs.
+constexpr double kFrequentShare = 0.05;
 
 /// Where trials that were drawn by one proposal lie among all.
 struct Batch {
@@ -30,13 +32,19 @@ class RareRunner {
       : factors_(factors), settings_(settings), experiment_(experiment) {}
 
   std::optional<RareRun> Run() {
-    for (Proposal& proposal : proposals_) {
-      if (!Search(proposal)) return std::nullopt;
-    }
-    run_.num_searching = static_cast<std::uint32_t>(run_.trials.size());
     const std::uint32_t num_pilot = std::max(settings_.num_per_stage / 2, 1U);
-    for (std::size_t i = 0; i < 2; ++i) {
-      if (!Try(proposals_[i], num_pilot, false, cheap_[i])) return std::nullopt;
+    proposals_.fill({.factors = factors_});
+    Batch first;
+    if (!Try(proposals_[0], settings_.num_per_stage, false, first)) return std::nullopt;
+    if (ScoreAt(kFrequentShare, first) < 0.0) {
+      const auto middle = first.indices.begin() + static_cast<std::ptrdiff_t>(num_pilot);
+      cheap_ = {Batch{{first.indices.begin(), middle}}, Batch{{middle, first.indices.end()}}};
+    } else {
+      if (!Search(proposals_[0], first) || !Search(proposals_[1], {})) return std::nullopt;
+      run_.num_searching = static_cast<std::uint32_t>(run_.trials.size());
+      for (std::size_t i = 0; i < 2; ++i) {
+        if (!Try(proposals_[i], num_pilot, false, cheap_[i])) return std::nullopt;
+      }
     }
     if (settings_.has_pairs) {
       pair_proposal_ = FitProposal(factors_, NearTheEdge(), FitSeed());
@@ -62,19 +70,20 @@ class RareRunner {
   // Of a fit that follows the trials that there are.
   [[nodiscard]] std::uint64_t FitSeed() const { return settings_.seed + run_.trials.size(); }
 
-  // Moves a proposal to the failures. Returns false if it was stopped.
-  bool Search(Proposal& proposal) {
+  // Moves a proposal, which is p yet, to the failures. Returns false if it was stopped.
+  // @param batch The first stage, if it was made.
+  bool Search(Proposal& proposal, Batch batch) {
     constexpr std::size_t kMostStages = 12;
-    constexpr double kEnoughFailures = 80.0;  // To tell modes apart.
-    proposal = {.factors = factors_};
+    constexpr double kEnoughFailures = 30.0;  // To fit modes to.
     std::vector<Proposal> stages;
     Batch all;
-    while (stages.size() < kMostStages) {
-      Batch batch;
-      if (!Try(proposal, settings_.num_per_stage, false, batch)) return false;
+    for (; stages.size() < kMostStages; batch = {}) {
+      if (batch.indices.empty() && !Try(proposal, settings_.num_per_stage, false, batch)) {
+        return false;
+      }
       all.indices.insert(all.indices.end(), batch.indices.begin(), batch.indices.end());
       stages.push_back(proposal);
-      const double threshold = ThresholdOf(batch);
+      const double threshold = ScoreAt(kEliteShare, batch);
       if (std::isinf(threshold)) return true;  // Next to nothing can fail.
       Batch elite;
       std::ranges::copy_if(all.indices, std::back_inserter(elite.indices),
@@ -92,14 +101,14 @@ class RareRunner {
     return true;
   }
 
-  // The score that a tenth of the trials are below.
-  [[nodiscard]] double ThresholdOf(const Batch& batch) const {
+  // The score that a share of the trials are below.
+  [[nodiscard]] double ScoreAt(double share, const Batch& batch) const {
     std::vector<double> scores;
     for (const std::uint32_t index : batch.indices) {
       scores.push_back(SoughtScore(run_.scores[index]));
     }
-    const auto place = scores.begin() + static_cast<std::ptrdiff_t>(
-                                            kEliteShare * static_cast<double>(scores.size()));
+    const auto place =
+        scores.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(scores.size()));
     std::nth_element(scores.begin(), place, scores.end());
     return *place;
   }
@@ -157,7 +166,8 @@ class RareRunner {
   // How many more are needed; nothing if there are enough, or if more would not help.
   [[nodiscard]] std::optional<Numbers> MoreTrials() const {
     constexpr double kWantedEffective = 120.0;
-    constexpr double kMostGrowth = 4.0;  // A pilot may err.
+    constexpr double kWantedLargest = 0.04;  // Share of one trial.
+    constexpr double kMostGrowth = 4.0;      // A pilot may err.
     constexpr double kEnough = 1.0 / 1.05;
     const RareFigure& figure = run_.figure;
     const double mean = figure.cheap.mean + figure.correction.mean;
@@ -172,7 +182,10 @@ class RareRunner {
     const auto more_of = [&](const RareLevel& level, double cost) {
       const auto num = static_cast<double>(level.num);
       double wanted = std::sqrt(level.variance / std::max(cost, 1.0)) * sum / (error * error);
-      wanted = std::max(wanted, num * kWantedEffective / std::max(figure.effective, 1.0));
+      if (!figure.is_plain) {
+        wanted = std::max({wanted, num * kWantedEffective / std::max(figure.effective, 1.0),
+                           num * figure.largest_share / kWantedLargest});
+      }
       if (kEnough * wanted <= num) return 0U;
       const double most = std::min((kMostGrowth - 1.0) * num,
                                    static_cast<double>(settings_.most_trials - num_trials));

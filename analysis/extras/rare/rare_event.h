@@ -49,6 +49,7 @@ struct RareFigure {
   std::array<Estimate, 2> by_proposal{};  ///< On the cheap level.
   RareLevel cheap{};
   RareLevel correction{};  ///< Dear minus cheap.
+  bool is_plain{};         ///< Whether p has drawn all, on one level: a share of equal trials.
 
   [[nodiscard]] bool is_known() const { return refusal.empty(); }
 };
@@ -59,9 +60,11 @@ struct RareFigure {
 /// That of the correction counts two disagreements more than were seen, so that it is not 0 where
 /// none was (rule of three).
 ///
-/// There is no figure if nothing failed, if the intervals of the two proposals do not overlap, if
-/// fewer than 100 weights are effective, if one is more than 5 % of their sum, or if trials whose
-/// result is not known weigh more than a tenth of those that failed.
+/// Of trials that p has drawn, on one level, it is the share that failed, with Wilson's interval.
+/// Otherwise there is no figure if the intervals of the two proposals do not overlap, if
+/// fewer than 100 weights are effective, or if one is more than 5 % of their sum; nor, in any case,
+/// if nothing failed, or if trials whose result is not known weigh more than a tenth of those that
+/// failed.
 [[nodiscard]] RareFigure EstimateRareFigure(const RareEvidence& evidence);
 
 /// Number of plain trials whose interval is as wide as that of a figure.
@@ -98,12 +101,13 @@ struct RareRun {
 
 /// Estimates a small probability of failure by importance sampling over the factors.
 ///
-/// Two searches, independent of each other, move a proposal to the failures on the cheap level in
-/// stages: each fits it to the tenth of the trials with the lowest scores, until that tenth fails
-/// (cross-entropy; Rubinstein and Kroese 2004). Trials by both proposals, and pairs by a third one
-/// that has been fitted to trials with scores near 0, give the figure. Their numbers go by
-/// sqrt(variance / cost) of a pilot (Giles 2015), until the interval has the width asked for. The
-/// result is a function of the arguments and scores alone.
+/// Where a twentieth of a first stage by p fails, that stage is part of the figure, and p draws all.
+/// Otherwise two searches, independent of each other, move a proposal to the failures on the cheap
+/// level in stages: each fits it to the tenth of the trials with the lowest scores, until that
+/// tenth fails (cross-entropy; Rubinstein and Kroese 2004). Trials by both proposals, and pairs by
+/// a third one that has been fitted to trials with scores near 0, give the figure. Their numbers go
+/// by sqrt(variance / cost) of a pilot (Giles 2015), until the interval has the width asked for.
+/// The result is a function of the arguments and scores alone.
 /// @return Nothing if the experiment was stopped.
 [[nodiscard]] std::optional<RareRun> RunRareEvent(const std::vector<RareFactor>& factors,
                                                   const RareSettings& settings,

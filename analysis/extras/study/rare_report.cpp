@@ -160,7 +160,7 @@ Table LevelsTable(const RareStudy& study) {
                           each_s * static_cast<double>(level.num)});
   };
   const double unknown = std::numeric_limits<double>::quiet_NaN();
-  add("search", {run.num_searching, unknown, unknown}, false);
+  if (run.num_searching > 0) add("search", {run.num_searching, unknown, unknown}, false);
   add("figure", run.figure.cheap, false);
   if (run.figure.correction.num > 0) add("correction", run.figure.correction, true);
   return table;

@@ -223,15 +223,15 @@ std::optional<RareStudy> RunRareStudy(const StudySpec& study,
   const RareSpec& spec = study.rare.value();
   const Fidelity dear = drawer.Draw(0).scenario.fidelity;
   RareStudy result{.factors = FactorsOfRecipe(drawer.recipe()),
-                   .cheap = spec.cheap,
+                   .cheap = spec.cheap.empty() ? std::string(NameOf(dear)) : spec.cheap,
                    .dear = std::string(NameOf(dear)),
                    .identity = IdentityOfStudy(study, drawer, choices)};
-  result.identity.rare = "cheap " + spec.cheap + ", per_stage " + NumberText(spec.per_stage) +
+  result.identity.rare = "cheap " + result.cheap + ", per_stage " + NumberText(spec.per_stage) +
                          ", precision " + NumberText(spec.precision) + ", most_approaches " +
                          NumberText(spec.most_approaches);
   std::vector<RareFactor> laws;
   for (const RecipeFactor& factor : result.factors) laws.push_back(factor.law);
-  const double cheap_cost = CostOfRung(ValueNamed<Fidelity>(spec.cheap).value());
+  const double cheap_cost = CostOfRung(ValueNamed<Fidelity>(result.cheap).value());
   RareMaker maker(study, drawer, choices, hooks, result);
   auto run = RunRareEvent(laws,
                           {.seed = drawer.recipe().seed,

@@ -40,7 +40,7 @@ void Describe(Archive& a, TrainGauge& s) {
 }
 
 void Describe(Archive& a, RareSpec& s) {
-  a.Optional("cheap", s.cheap, "The rung of most approaches.",
+  a.Optional("cheap", s.cheap, "The rung of most approaches; absent = the recipe's own.",
              OneOf({"geometry", "plausibility", "surface", "footprint"}));
   a.Optional("per_stage", s.per_stage, "Approaches of each stage of the search.", Within(100, 1e5));
   a.Optional("precision", s.precision, "Half the interval, as a share of the probability.",

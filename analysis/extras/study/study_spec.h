@@ -14,7 +14,7 @@ namespace railcast {
 
 /// How the probability of rare failures is sought.
 struct RareSpec {
-  std::string cheap = "surface";  ///< The rung on which most approaches are made.
+  std::string cheap{};  ///< The rung on which most approaches are made; empty: the recipe's own.
   std::uint32_t per_stage = 300;
   double precision = 0.3;
   std::uint32_t most_approaches = 20'000;

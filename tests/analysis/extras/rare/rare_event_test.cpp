@@ -53,6 +53,8 @@ struct RareCoverage {
   std::uint32_t num_known = 0;
   std::uint32_t num_covering = 0;
   double mean = 0.0;
+  double trials = 0.0;        // Of all.
+  double plain_trials = 0.0;  // For intervals as wide.
 };
 
 RareCoverage CoverageOf(const std::vector<RareFactor>& factors,
@@ -62,8 +64,11 @@ RareCoverage CoverageOf(const std::vector<RareFactor>& factors,
   RareCoverage coverage;
   for (std::uint32_t i = 0; i < kNumEstimates; ++i) {
     settings.seed = 1000 + i * 1'000'003ULL;
-    const RareFigure figure = RunRareEvent(factors, settings, experiment)->figure;
+    const auto run = RunRareEvent(factors, settings, experiment);
+    const RareFigure& figure = run->figure;
     if (!figure.is_known()) continue;
+    coverage.trials += static_cast<double>(run->trials.size());
+    coverage.plain_trials += PlainTrialsFor(figure.probability);
     ++coverage.num_known;
     coverage.mean += figure.probability.value;
     const bool covers =
@@ -131,6 +136,19 @@ TEST(RareEvent, CoversTheProbabilityOfABoxInFog) {
       CoverageOf(factors, {.num_per_stage = 200}, experiment, FogProbability());
   EXPECT_GE(coverage.num_known, 9 * kNumEstimates / 10);
   EXPECT_GE(coverage.num_covering, 0.93 * coverage.num_known);
+}
+
+TEST(RareEvent, CostsNoMoreThanPlainTrialsWhereFailuresAreFrequent) {
+  const RareExperiment experiment = [](const std::vector<RareTrial>& trials) {
+    std::vector<RareScores> scores;
+    for (const RareTrial& trial : trials) scores.push_back({trial.point[0] + 1.1503});
+    return std::optional(scores);
+  };
+  const RareCoverage coverage = CoverageOf(std::vector<RareFactor>(2), {.num_per_stage = 200},
+                                           experiment, NormalTail(1.1503));
+  EXPECT_EQ(coverage.num_known, kNumEstimates);
+  EXPECT_GE(coverage.num_covering, 0.93 * coverage.num_known);
+  EXPECT_LE(coverage.trials, 1.05 * coverage.plain_trials);
 }
 
 TEST(RareEvent, RefusesWhereTheCheapLevelIsBlind) {
