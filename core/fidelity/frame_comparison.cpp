@@ -72,7 +72,7 @@ EffectSet YardstickEffects() {
 
 EffectSet WithoutRangeErrors(EffectSet effects) {
   for (const Effect& effect : EffectTable()) {
-    if (effect.is_range_error) effects.*effect.is_on = false;
+    if (effect.is_measurement_error) effects.*effect.is_on = false;
   }
   return effects;
 }

@@ -18,9 +18,10 @@ namespace railcast {
 /// weather and of the sensor on.
 [[nodiscard]] EffectSet YardstickEffects();
 
-/// The effects without those that add random errors to ranges after detection (`range_noise`,
-/// `channel_bias` and the published `noise`), so that comparisons show only differences between the
-/// models. All other random draws are the same for the same seed.
+/// The effects without those that add random errors to ranges and intensities after detection
+/// (`range_noise`, `channel_bias`, `intensity_noise`, `channel_gain` and the published `noise`), so
+/// that comparisons show only differences between the models. All other random draws are the same
+/// for the same seed.
 [[nodiscard]] EffectSet WithoutRangeErrors(EffectSet effects);
 
 /// How the frames of two effect sets are compared.

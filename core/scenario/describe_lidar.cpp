@@ -148,6 +148,10 @@ void Describe(Archive& a, ReceiverSpec& s) {
              "sigma = hypot(floor, this / sqrt(2 SNR)).", Within(0, 10));
   a.Optional("channel_bias_sigma_m", s.channel_bias_sigma_m,
              "Standard deviation of the channels' constant range errors.", Within(0, 10));
+  a.Optional("intensity_noise", s.intensity_noise,
+             "Relative standard deviation of the intensity from echo to echo.", Within(0, 1));
+  a.Optional("channel_gain", s.channel_gain,
+             "Relative standard deviation of the intensity from channel to channel.", Within(0, 1));
   a.Optional("pointing_jitter_deg", s.pointing_jitter_deg,
              "Standard deviation of a beam's direction, in each of two directions.", Within(0, 1));
   a.Optional("clutter_gain", s.clutter_gain,
@@ -159,6 +163,9 @@ void Describe(Archive& a, ReceiverSpec& s) {
   a.Optional("fog_gain", s.fog_gain, "Multiplies the power of the echoes of fog.", Within(0, 10));
   a.Optional("dead_time_ns", s.dead_time_ns,
              "How long the receiver is blind after an echo; 0 = not at all.", Within(0, 1000));
+  a.Optional("edge_loss", s.edge_loss,
+             "Probability that a beam is lost of which two surfaces far apart have a half each.",
+             Within(0, 1));
   a.Optional("halo_share_at_1_deg", s.halo_share_at_1_deg,
              "Share of a retroreflector's power that a beam receives which points 1 deg beside it.",
              Within(0, 0.1));

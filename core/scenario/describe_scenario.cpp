@@ -131,6 +131,9 @@ void Describe(Archive& a, Material& s) {
   a.Optional("retroreflectance", s.retroreflectance,
              "Reflectance of a retroreflector as a multiple of a white Lambertian.",
              Within(0, 10'000));
+  a.Optional("texture", s.texture,
+             "Standard deviation of the logarithm of its response from cell to cell of 3 cm.",
+             Within(0, 2));
   a.Optional("height_rms_um", s.height_rms_um,
              "Standard deviation of the heights of a flat surface that mirrors; absent = it does "
              "not.",

@@ -248,6 +248,8 @@ DetectorSpec DetectorSpecOf(const ScenarioSpec& spec,
           .air_seed = spec.seed,
           .ground_seed = spec.world.seed,
           .has_mirrors = HasMirrors(spec),
+          .has_texture = std::ranges::any_of(
+              spec.materials, [](const Material& material) { return material.texture > 0.0; }),
           .range_min_m = lidar.range_min_m,
           .range_max_m = lidar.range_max_m,
           .effects = effects,

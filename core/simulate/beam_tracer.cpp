@@ -34,7 +34,8 @@ BeamTracer::BeamTracer(const SimulatorSpec& spec,
                  .snow = OpticsAt(materials[spec.snow_material], spec_.beam.wavelength_nm)}),
       kernels_(AvailableKernels().back()),
       spray_(spec_),
-      mirror_paths_(spec_, kernels_) {
+      mirror_paths_(spec_, kernels_),
+      texture_(spec_, materials, kernels_) {
   pointing_ = {.seed = spec_.seed,
                .sigma_rad = static_cast<float>(RadFromDeg(spec_.receiver.pointing_jitter_deg))};
   is_sun_up_ = spec_.effects.sunlight && spec_.weather.sun.illuminance_klx > 0.0;
@@ -129,6 +130,8 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
   if (cover_) cover_->Fill(first, work.drops);
   const SurfaceTable table{frame.surfaces, optics_};
   const BeamFrame beam = BeamFrameOf(frame);
+  TextureScene textures{};
+  if (texture_.is_on()) textures = Texture::SceneOf(frame.window_from_world, frame.textured);
   const WideBeams beams{.rays = rays,
                         .frame = beam,
                         .turns = work.turns,
@@ -136,7 +139,9 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
                         .table = table,
                         .detector = detector_,
                         .mirrors = frame.mirrors ? &*frame.mirrors : nullptr,
-                        .besides = frame.besides};
+                        .besides = frame.besides,
+                        .texture = texture_.is_on() ? &texture_ : nullptr,
+                        .textures = &textures};
   const bool is_wide = !casts_all_centers();
   if (is_wide) {
     work.footprint.Trace(beams, spec_.effects.thin_conductors ? frame.wires : nullptr, first);
@@ -156,6 +161,10 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
   work.mirrors.hits.clear();
   if (frame.mirrors) DimMirrors(*frame.mirrors, rays, first, &work.mirrors.hits);
   detector_.Respond(first, observer);
+  if (texture_.is_on()) {
+    texture_.Apply(textures, frame.surfaces, rays, first);
+    if (observer) observer("texture");
+  }
   std::fill_n(echoes.mixed_share, first.num_rays, 0.0F);
   if (is_wide) {
     work.footprint.Resolve(beams, echoes);

@@ -9,6 +9,7 @@
 #include "core/detect/base/echo_tiles.h"
 #include "core/detect/beam/footprint.h"
 #include "core/detect/beam/mirror_paths.h"
+#include "core/detect/beam/texture.h"
 #include "core/detect/clutter/cover.h"
 #include "core/detect/detector/detector.h"
 #include "core/detect/effects/spray.h"
@@ -33,8 +34,9 @@ struct CastFrame {
   std::optional<MirrorScene> mirrors{};  ///< Absent unless effect `mirror_paths` has any.
   /// Whether the caster takes rays that are shorter than 0, which hit nothing.
   bool takes_no_rays = false;
-  const FrameMotion* motion{};      ///< Null unless velocities are measured and it is known.
-  const FiringSurfaces* besides{};  ///< What beams meet besides; null = nothing.
+  const TexturedThings* textured{};  ///< Null = the coordinates of all surfaces are the world's.
+  const FrameMotion* motion{};       ///< Null unless velocities are measured and it is known.
+  const FiringSurfaces* besides{};   ///< What beams meet besides; null = nothing.
 };
 
 /// Makes the echoes of a tile of firings, from aiming the beams to the received power, with the
@@ -127,6 +129,7 @@ class BeamTracer {
   Spray spray_;
   std::optional<Mirrors> mirrors_;
   MirrorPaths mirror_paths_;
+  Texture texture_;
 };
 
 }  // namespace railcast

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <iterator>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "core/base/units.h"
@@ -168,6 +169,7 @@ std::unique_ptr<const FrameScene> FrameScenes::MakeScene(const BegunFrame& begun
   MovingThings moving = MovingObjects(stamp_ns, *window);
   scene.moving_objects = std::move(moving.objects);
   if (has_motion_) scene.motion = MotionOf(scene, *window);
+  if (has_texture_) scene.textured = TexturedOf(scene, *window);
   if (!more_surfaces_.empty()) {
     scene.more_surfaces = window->surfaces;
     scene.more_surfaces.insert(scene.more_surfaces.end(), more_surfaces_.begin(),
@@ -234,6 +236,34 @@ FrameMotion FrameScenes::MotionOf(const FrameScene& scene, const Window& window)
     }
   }
   return motion;
+}
+
+TexturedThings FrameScenes::TexturedOf(const FrameScene& scene, const Window& window) const {
+  std::set<std::size_t> objects(scene.moving_objects.begin(), scene.moving_objects.end());
+  for (const std::size_t stored : window.standing) objects.insert(standing_.at(stored));
+  TexturedThings textured;
+  for (const std::size_t i : objects) {
+    const Object& object = objects_[i];
+    if (!store_->HasTexture(object.stored.surfaces)) continue;
+    const std::vector<TracePiece>& pieces = *object.stored.pieces;
+    std::vector<std::vector<CellField>> fields(pieces.size());
+    const std::int64_t num_intervals = NumOwnIntervals(i);
+    for (std::int64_t step = 0; step <= num_intervals; ++step) {
+      const std::int64_t since_stamp_ns =
+          std::int64_t{spec_.duration_ns} * step / std::max<std::int64_t>(num_intervals, 1);
+      const auto places = PiecesAt(i, scene.stamp_ns + since_stamp_ns, window);
+      for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
+        fields[piece].push_back(CellsFromWindow(places[piece].inverse()).cast<float>());
+      }
+    }
+    auto end = static_cast<std::uint32_t>(object.stored.surfaces.size());
+    for (std::size_t piece = pieces.size(); piece-- > 0;) {
+      const std::uint32_t begin = pieces[piece].first_surface;
+      textured.Add(FirstSurface(object, window) + begin, end - begin, fields[piece]);
+      end = begin;
+    }
+  }
+  return textured;
 }
 
 FramePoses FrameScenes::PosesIn(const Transform& window_from_world, std::int64_t stamp_ns) const {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/detect/beam/texture.h"
 #include "core/simulate/frame_motion.h"
 #include "core/simulate/frame_poses.h"
 #include "core/simulate/scene_store.h"
@@ -54,6 +55,7 @@ struct FrameScene final : public RayCaster {
   /// own; empty if there are none of these.
   std::vector<Surface> more_surfaces;
   std::optional<FrameMotion> motion;    ///< If velocities are measured.
+  TexturedThings textured;              ///< If textures are asked for: all objects with one.
   std::optional<WireSet> swayed_wires;  ///< If there is wind.
 
   /// The wires that the casters also see as tubes.
@@ -116,6 +118,9 @@ class FrameScenes {
 
   /// Sets whether scenes have their `motion` from now on; at first, they have not.
   void UseMotion(bool has_motion) { has_motion_ = has_motion; }
+
+  /// Sets whether scenes have their `textured` from now on; at first, they have not.
+  void UseTexture(bool has_texture) { has_texture_ = has_texture; }
 
   /// Has windows prepared for casting beams.
   void UseBeams() { store_->UseBeams(); }
@@ -184,6 +189,7 @@ class FrameScenes {
   /// The same at the object's own step; 0 if it does not move.
   [[nodiscard]] std::int64_t NumOwnIntervals(std::size_t object) const;
   [[nodiscard]] FrameMotion MotionOf(const FrameScene& scene, const Window& window) const;
+  [[nodiscard]] TexturedThings TexturedOf(const FrameScene& scene, const Window& window) const;
   [[nodiscard]] SwayedThings Swayed(std::int64_t stamp_ns, const Window& window) const;
   /// Index of the first surface that sways, behind all others; nothing if scenes have no `motion`.
   [[nodiscard]] std::optional<std::uint32_t> FirstOwnSurface(const Window& window) const {
@@ -217,6 +223,7 @@ class FrameScenes {
   WindowSource windows_;
   Wind wind_;
   bool has_motion_ = false;
+  bool has_texture_ = false;
   std::shared_ptr<const World> world_;
   std::vector<Object> objects_;  // In the order of world_->objects().
   /// Index in world_->objects() of each object in the windows, by its index in the store's world.

@@ -121,6 +121,11 @@ Surface SceneStore::MakeSurface(const Part& part, std::uint32_t instance, bool i
           .is_ego = is_ego};
 }
 
+bool SceneStore::HasTexture(const std::vector<Surface>& surfaces) const {
+  return std::ranges::any_of(
+      surfaces, [&](const Surface& surface) { return materials_[surface.material].texture > 0.0; });
+}
+
 std::shared_ptr<SceneStore> MakeSceneStore(std::shared_ptr<const World> world,
                                            const MaterialLibrary& materials,
                                            const std::string& isa) {

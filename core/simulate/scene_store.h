@@ -63,6 +63,8 @@ class SceneStore {
   [[nodiscard]] bool uses_beams() const { return uses_beams_; }
 
   [[nodiscard]] Surface MakeSurface(const Part& part, std::uint32_t instance, bool is_ego) const;
+  /// Whether any of the surfaces has a texture.
+  [[nodiscard]] bool HasTexture(const std::vector<Surface>& surfaces) const;
   [[nodiscard]] const std::shared_ptr<const World>& world() const { return world_; }
   [[nodiscard]] const TraceDevice& device() const { return device_; }
 

@@ -136,6 +136,7 @@ void Simulator::Parts::UseSpec() {
   const DetectorSpec& detector = spec.detector;
   scenes.UseWind(Wind(WindVelocity_mps(detector.weather), detector.air_seed));
   scenes.UseMotion(detector.velocity.has_value());
+  scenes.UseTexture(detector.effects.texture);
   others.clear();
 }
 
@@ -177,6 +178,7 @@ CastFrame Simulator::Parts::CastOf(const Detection& by,
   cast.mirrors = by.tracer->MirrorsAmong(cast.surfaces, cast.window_from_world);
   cast.takes_no_rays = true;
   if (scene.motion) cast.motion = &*scene.motion;
+  cast.textured = &scene.textured;
   return cast;
 }
 

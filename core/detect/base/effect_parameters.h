@@ -76,6 +76,20 @@ struct ResponseParameters {
   float snow_a{}, snow_b{};  ///< The snow's diffuse_a and diffuse_b.
 };
 
+/// Where the echoes of a tile lie on surfaces with a texture, in cells of their own coordinates.
+struct alignas(64) TextureLanes {
+  float x[kTileSize], y[kTileSize], z[kTileSize];
+  /// Added to the numbers of the cells: what of the coordinates is too large for float32.
+  std::uint32_t base_x[kTileSize], base_y[kTileSize], base_z[kTileSize];
+  std::uint32_t instance[kTileSize];  ///< Of the object, so that objects of one kind differ.
+  float variance[kTileSize];          ///< Relative variance of the response of a cell; 0 = none.
+};
+
+struct TextureParameters {
+  std::uint64_t seed{};
+  float sigma_h_rad{}, sigma_v_rad{};  ///< As BeamFrame.
+};
+
 /// Number of components of a wave that are summed at a time.
 inline constexpr std::size_t kWaveLanes = 16;
 

@@ -38,6 +38,9 @@ void PartBatch::Respond(const WideBeams& beams,
   }
   if (beams.mirrors != nullptr) DimMirrors(*beams.mirrors, rays, hits_);
   beams.detector.Respond(hits_);
+  if (beams.texture != nullptr) {
+    beams.texture->Apply(*beams.textures, beams.table.surfaces, rays, hits_);
+  }
   for (std::size_t i = 0; i < num_wanted; ++i) parts.push_back(ComponentOf(hits_, i));
 }
 

@@ -10,6 +10,7 @@
 #include "core/detect/base/detect_tile.h"
 #include "core/detect/beam/echo_finder.h"
 #include "core/detect/beam/mirrors.h"
+#include "core/detect/beam/texture.h"
 #include "core/detect/detector/detector.h"
 #include "core/detect/kernels/kernels.h"
 #include "railcast/effects.h"
@@ -40,6 +41,8 @@ struct WideBeams {
   const Detector& detector;
   const MirrorScene* mirrors{};     ///< Null if nothing mirrors.
   const FiringSurfaces* besides{};  ///< What beams meet besides; null = nothing.
+  const Texture* texture{};         ///< Null if nothing has one.
+  const TextureScene* textures{};   ///< As `texture`.
 };
 
 /// Hits of sub-rays on the way to their response. Each stands for a share of its beam.

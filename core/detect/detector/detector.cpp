@@ -1,6 +1,7 @@
 #include "core/detect/detector/detector.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include "core/detect/base/weather_optics.h"
 #include "core/detect/kernels/measurement.h"
 #include "core/detect/kernels/surface_response.h"
+#include "railcast/outcome.h"
 
 namespace railcast {
 namespace {
@@ -120,6 +122,51 @@ bool ShowsSurfaceCondition(const DetectorSpec& spec) {
   return spec.effects.surface_condition && FindEffect("surface_condition")->has_cause(spec);
 }
 
+void LoseBeamsAtEdges(const EdgeLossParameters& parameters, EchoTiles& echoes) {
+  if (!(parameters.probability > 0.0F) || echoes.num_more() == 0) return;
+  struct Part {
+    float share = 0.0F;
+    float range_m = 0.0F;
+  };
+  std::array<std::array<Part, 2>, kTileSize> largest{};
+  const auto add = [&](const DetectTile& tile, std::size_t lane, std::size_t beam) {
+    if (tile.clutter[lane] != kNoClutter || tile.surface[lane] == 0) return;
+    auto& [first, second] = largest[beam];
+    const Part part{tile.share[lane], tile.true_range_m[lane]};
+    if (part.share > first.share) {
+      second = std::exchange(first, part);
+    } else if (part.share > second.share) {
+      second = part;
+    }
+  };
+  const DetectTile& firings = echoes.first;
+  for (std::size_t i = 0; i < firings.num_rays; ++i) add(firings, i, i);
+  for (std::size_t i = 0; i < echoes.num_more(); ++i) {
+    const auto [tile, lane] = echoes.more(i);
+    add(tile, lane, echoes.beam_of(i));
+  }
+  std::array<bool, kTileSize> is_lost{};
+  for (std::size_t i = 0; i < firings.num_rays; ++i) {
+    const auto& [first, second] = largest[i];
+    const float jump_m = std::fabs(first.range_m - second.range_m);
+    if (second.share == 0.0F || jump_m <= parameters.pulse_length_m) continue;
+    const float straddles = 2.0F * second.share / (first.share + second.share);
+    const float probability =
+        parameters.probability * straddles * (1.0F - parameters.pulse_length_m / jump_m);
+    const auto words =
+        RandomWords(parameters.seed, RandomUse::kEdgeLoss, firings.frame, firings.firing[i]);
+    is_lost[i] = UnitFloat(words[0]) < probability;
+  }
+  constexpr auto kLost = static_cast<std::uint32_t>(Outcome::kSensorDropout);
+  for (std::size_t i = 0; i < firings.num_rays; ++i) {
+    if (is_lost[i]) echoes.first.outcome[i] = kLost;
+  }
+  for (std::size_t i = 0; i < echoes.num_more(); ++i) {
+    const auto [tile, lane] = echoes.more(i);
+    if (is_lost[echoes.beam_of(i)]) tile.outcome[lane] = kLost;
+  }
+}
+
 Detector::Detector(const DetectorSpec& spec, const DetectorSetting& setting, const Kernels& kernels)
     : response_(MakeResponse(spec, setting.snow)),
       pulse_sigma_m_(static_cast<float>(PulseSigma_m(spec.beam))),
@@ -130,6 +177,10 @@ Detector::Detector(const DetectorSpec& spec, const DetectorSetting& setting, con
       channel_bias_m_(MakeChannelBias(spec, setting.num_channels)),
       clutter_(spec, kernels),
       ghost_(spec),
+      edge_loss_{.seed = spec.seed,
+                 .probability =
+                     spec.effects.edge_loss ? static_cast<float>(spec.receiver.edge_loss) : 0.0F,
+                 .pulse_length_m = static_cast<float>(PulseLength_m(spec.beam))},
       interference_(spec, kernels) {
   if (ShowsSurfaceCondition(spec)) {
     ResponseParameters bare = response_;
@@ -179,6 +230,8 @@ void Detector::Detect(const AirView& air, EchoTiles& echoes, const EffectObserve
   tell(clutter_.has_particles(), "clutter");
   clutter_.AddFogEchoes(air, echoes);
   tell(clutter_.has_fog_echo(), "fog_echo");
+  LoseBeamsAtEdges(edge_loss_, echoes);
+  tell(edge_loss_.probability > 0.0F, "edge_loss");
   for (const EffectStep& step : receiver_) {
     echoes.ForEachTile(step.apply);
     tell(true, step.effect);

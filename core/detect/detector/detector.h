@@ -25,6 +25,23 @@ using EffectObserver = std::function<void(std::string_view effect)>;
 /// covered with snow.
 [[nodiscard]] bool ShowsSurfaceCondition(const DetectorSpec& spec);
 
+/// The parameters of effect `edge_loss`.
+struct EdgeLossParameters {
+  std::uint64_t seed{};
+  float probability{};  ///< Of beams halved by a high edge; 0 = the effect is off.
+  float pulse_length_m{};
+};
+
+/// Effect `edge_loss`: a receiver that compares parts of its pulse with each other, or several
+/// pulses, may find no distance in a beam that meets two surfaces. It loses all echoes of a beam
+/// whose two largest shares s1 >= s2 are a distance d apart in range with the probability
+///
+///   edge_loss x 2 s2 / (s1 + s2) x (1 - L / d)   for d > the pulse's length L, else 0
+///
+/// Ours: recordings show that beams are lost at jumps of metres (docs/physics.md 1.3), not by which
+/// law; this one rises with the smaller share and the jump, and is 0 where pulses overlap.
+void LoseBeamsAtEdges(const EdgeLossParameters& parameters, EchoTiles& echoes);
+
 /// Turns hits into detected echoes. Runs the loops of the effects that are on and have a cause, in
 /// the order of StepOrder; clutter is added before the receiver's loops, false alarms and foreign
 /// pulses after them. Immutable; thread-safe.
@@ -70,6 +87,7 @@ class Detector {
   std::vector<float> channel_bias_m_;
   Clutter clutter_;
   Ghost ghost_;
+  EdgeLossParameters edge_loss_;
   Interference interference_;
 };
 

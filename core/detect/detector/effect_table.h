@@ -38,6 +38,7 @@ enum class StepOrder {
   kDetection,
   kCoverBlame,
   kRangeWalk,
+  kIntensity,
   kSaturation,
   kMeasurement,
 };
@@ -80,8 +81,9 @@ struct Effect {
   /// 10 where the difference is less, since switching an effect off also changes the work of the
   /// others. Counts differ between scenes, but their order hardly does, and only the order matters.
   std::optional<double> instructions{};
-  /// Whether it adds random errors to ranges after detection. Comparisons leave such effects out.
-  bool is_range_error = false;
+  /// Whether it adds random errors to ranges or intensities after detection. Comparisons leave such
+  /// effects out.
+  bool is_measurement_error = false;
   /// Whether light of one beam's echoes reaches other beams, so that it needs the echoes of all.
   bool acts_between_beams = false;
   bool EffectSet::*needed = nullptr;    ///< Another effect that must be on with it, or null.

@@ -35,6 +35,16 @@ std::string SurfaceConditionText(const DetectorSpec& spec) {
          NumberText(spec.weather.snow_cover);
 }
 
+// Texture acts where beams are traced.
+
+bool HasTexture(const DetectorSpec& spec) {
+  return spec.has_texture;
+}
+
+std::string TextureText(const DetectorSpec& spec) {
+  return spec.has_texture ? "cells of 3 cm" : "none: no material has one";
+}
+
 // Extinction.
 
 double ExtinctionOf_per_m(const DetectorSpec& spec) {
@@ -249,6 +259,11 @@ std::vector<Effect> PhysicalEffects() {
        .text = &SurfaceConditionText,
        .weather_keys = {"wetness", "rain_rate_mmph", "snow_cover"},
        .instructions = 10.0},
+      {.name = "texture",
+       .is_on = &EffectSet::texture,
+       .rungs = from_surface_on,
+       .has_cause = HasTexture,
+       .text = &TextureText},
       {.name = "extinction",
        .is_on = &EffectSet::extinction,
        .rungs = from_surface_on,
@@ -320,13 +335,13 @@ std::vector<Effect> PhysicalEffects() {
        .rungs = from_surface_on,
        .has_cause = HasRangeNoise,
        .text = &RangeNoiseText,
-       .is_range_error = true},
+       .is_measurement_error = true},
       {.name = "channel_bias",
        .is_on = &EffectSet::channel_bias,
        .rungs = from_surface_on,
        .has_cause = HasChannelBias,
        .text = &ChannelBiasText,
-       .is_range_error = true},
+       .is_measurement_error = true},
       {.name = "pointing_jitter",
        .is_on = &EffectSet::pointing_jitter,
        .rungs = from_surface_on,

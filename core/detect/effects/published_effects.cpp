@@ -165,7 +165,7 @@ std::vector<Effect> PublishedEffects() {
        .rungs = plausibility,
        .has_cause = HasNoise,
        .text = &NoiseText,
-       .is_range_error = true},
+       .is_measurement_error = true},
       {.name = "sensor_dropout",
        .is_on = &EffectSet::sensor_dropout,
        .rungs = all_but_geometry,

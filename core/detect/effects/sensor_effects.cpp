@@ -8,6 +8,7 @@
 #include "core/detect/clutter/cover.h"
 #include "core/detect/detector/effect_table.h"
 #include "core/detect/kernels/echo_power.h"
+#include "core/detect/kernels/measurement.h"
 
 namespace railcast {
 namespace {
@@ -100,6 +101,49 @@ std::string GhostText(const DetectorSpec& spec) {
          NumberText(spec.cover.aperture_mm) + " mm goes back";
 }
 
+// Intensity noise and channel gain.
+
+IntensityErrorParameters IntensityOf(const DetectorSpec& spec, double relative_sigma) {
+  const double log_variance = std::log1p(relative_sigma * relative_sigma);
+  return {.seed = spec.seed, .log_sigma = static_cast<float>(std::sqrt(log_variance))};
+}
+
+bool HasIntensityNoise(const DetectorSpec& spec) {
+  return spec.receiver.intensity_noise > 0.0;
+}
+
+std::string IntensityNoiseText(const DetectorSpec& spec) {
+  return "sigma " + NumberText(100.0 * spec.receiver.intensity_noise) + " %";
+}
+
+SensorLoop IntensityNoiseLoop(const DetectorSpec& spec, const Kernels& kernels) {
+  return [parameters = IntensityOf(spec, spec.receiver.intensity_noise),
+          apply = kernels.intensity_noise](DetectTile& tile) { apply(tile, parameters); };
+}
+
+bool HasChannelGain(const DetectorSpec& spec) {
+  return spec.receiver.channel_gain > 0.0;
+}
+
+std::string ChannelGainText(const DetectorSpec& spec) {
+  return "sigma " + NumberText(100.0 * spec.receiver.channel_gain) + " %";
+}
+
+SensorLoop ChannelGainLoop(const DetectorSpec& spec, const Kernels& kernels) {
+  return [parameters = IntensityOf(spec, spec.receiver.channel_gain),
+          apply = kernels.channel_gain](DetectTile& tile) { apply(tile, parameters); };
+}
+
+// Edge loss acts before detection, since it needs all echoes of a beam.
+
+bool HasEdgeLoss(const DetectorSpec& spec) {
+  return spec.receiver.edge_loss > 0.0 && IsWide(spec.beam);
+}
+
+std::string EdgeLossText(const DetectorSpec& spec) {
+  return NumberText(100.0 * spec.receiver.edge_loss) + " % of the beams halved by a high edge";
+}
+
 }  // namespace
 
 std::vector<Effect> SensorEffects() {
@@ -143,6 +187,25 @@ std::vector<Effect> SensorEffects() {
        .has_cause = HasGhost,
        .text = &GhostText,
        .labels = {{"ghost", &ClutterLabels::ghost}}},
+      {.name = "intensity_noise",
+       .is_on = &EffectSet::intensity_noise,
+       .rungs = physical,
+       .has_cause = HasIntensityNoise,
+       .text = &IntensityNoiseText,
+       .loops = {{StepOrder::kIntensity, &IntensityNoiseLoop}},
+       .is_measurement_error = true},
+      {.name = "channel_gain",
+       .is_on = &EffectSet::channel_gain,
+       .rungs = physical,
+       .has_cause = HasChannelGain,
+       .text = &ChannelGainText,
+       .loops = {{StepOrder::kIntensity, &ChannelGainLoop}},
+       .is_measurement_error = true},
+      {.name = "edge_loss",
+       .is_on = &EffectSet::edge_loss,
+       .rungs = {Fidelity::kFootprint, Fidelity::kReference},
+       .has_cause = HasEdgeLoss,
+       .text = &EdgeLossText},
   };
 }
 

@@ -36,6 +36,8 @@ namespace railcast {
   KERNEL(response, ApplyResponse, void(DetectTile&, const ResponseParameters&))                  \
   KERNEL(pulse_stretch, ApplyPulseStretch,                                                       \
          void(DetectTile&, const struct PulseStretchParameters&))                                \
+  KERNEL(texture, ApplyTexture,                                                                  \
+         void(DetectTile&, const TextureLanes&, const struct TextureParameters&))                \
   KERNEL(extinction, ApplyExtinction, void(DetectTile&, float extinction_per_m))                 \
   KERNEL(sunlight, ApplySunlight, void(DetectTile&, const struct SunlightParameters&))           \
   KERNEL(cover_loss, ApplyCoverLoss, void(DetectTile&))                                          \
@@ -50,6 +52,10 @@ namespace railcast {
   KERNEL(climb_waves, ClimbWaves, void(const WaveClimbs&, WavePeak*))                            \
   KERNEL(sample_wave, SampleWave,                                                                \
          void(const EchoWave&, float first_m, float step_m, std::size_t num, float* samples))    \
+  KERNEL(intensity_noise, ScaleIntensity<false>,                                                 \
+         void(DetectTile&, const struct IntensityErrorParameters&))                              \
+  KERNEL(channel_gain, ScaleIntensity<true>,                                                     \
+         void(DetectTile&, const struct IntensityErrorParameters&))                              \
   KERNEL(measure_exact, ApplyMeasurement<RangeErrors::kNone>,                                    \
          void(DetectTile&, const struct MeasurementParameters&))                                 \
   KERNEL(measure_isotropic, ApplyMeasurement<RangeErrors::kIsotropic>,                           \

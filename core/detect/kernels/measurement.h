@@ -25,6 +25,11 @@ struct MeasurementParameters {
   const float* channel_bias_m{};  ///< By channel.
 };
 
+struct IntensityErrorParameters {
+  std::uint64_t seed{};
+  float log_sigma{};  ///< sqrt(ln(1 + s^2)) for the relative standard deviation s.
+};
+
 }  // namespace railcast
 
 namespace railcast::RAILCAST_ISA {
@@ -40,6 +45,26 @@ inline void ApplyHit(DetectTile& tile, float range_min_m) {
     tile.outcome[i] = near ? static_cast<std::uint32_t>(Outcome::kNearRange) : before;
     // Acos passes NaN on.
     tile.incidence_rad[i] = Acos(tile.cos_incidence[i]);
+  }
+}
+
+/// Effects `intensity_noise` and `channel_gain`: the intensity is measured wrong by a log-normal
+/// factor with mean 1 and the relative standard deviation s that the sensor's spec states:
+///
+///   intensity x exp(g n - g^2 / 2),   g^2 = ln(1 + s^2),   n ~ N(0, 1)
+///
+/// with an n for each echo, or for each channel (kIsOfChannel), the same in every frame. Power, and
+/// with it detection and range noise, is what arrives. Log-normal, so that no intensity is < 0.
+template <bool kIsOfChannel>
+inline void ScaleIntensity(DetectTile& tile, const IntensityErrorParameters& parameters) {
+  const LaneKey key{parameters.seed,
+                    kIsOfChannel ? RandomUse::kChannelGain : RandomUse::kIntensityNoise,
+                    kIsOfChannel ? 0U : tile.frame};
+  const float g = parameters.log_sigma;
+  for (std::size_t i = 0; i < tile.num_rays; ++i) {
+    const Words words = kIsOfChannel ? LaneWords(key, tile.channel[i], 0)
+                                     : LaneWords(key, tile.firing[i], tile.echo[i]);
+    tile.intensity[i] *= Exp(g * LaneNormals(words).a - 0.5F * g * g);
   }
 }
 

@@ -46,6 +46,7 @@ struct EffectSet {
   // Physics of surfaces, air and receiver.
   bool surface_response = false;   ///< Oren-Nayar, GGX and retroreflection instead of Lambert.
   bool surface_condition = false;  ///< Wet and snow-covered surfaces.
+  bool texture = false;            ///< Reflectance that varies from place to place.
   bool extinction = false;         ///< Two-way extinction by fog, rain and snow.
   bool pulse_stretch = false;      ///< Oblique surfaces stretch the pulse and lower its peak.
   bool mirror_paths = false;       ///< Mirror images in puddles and smooth surfaces.
@@ -63,12 +64,15 @@ struct EffectSet {
   bool dead_time = false;        ///< After an echo the receiver is blind for a while.
 
   // The sensor's window, optics and receiver.
-  bool cover = false;         ///< Drops, dirt and snow on the window in front of the sensor.
-  bool halo = false;          ///< Stray light of retroreflectors in the beams around them.
-  bool range_walk = false;    ///< Range error that depends on the strength of the echo.
-  bool interference = false;  ///< False echoes from pulses of other lidars.
-  bool saturation = false;    ///< Echoes that are too strong for the receiver.
-  bool ghost = false;         ///< Echoes of retroreflectors at twice their range.
+  bool cover = false;            ///< Drops, dirt and snow on the window in front of the sensor.
+  bool halo = false;             ///< Stray light of retroreflectors in the beams around them.
+  bool range_walk = false;       ///< Range error that depends on the strength of the echo.
+  bool interference = false;     ///< False echoes from pulses of other lidars.
+  bool saturation = false;       ///< Echoes that are too strong for the receiver.
+  bool ghost = false;            ///< Echoes of retroreflectors at twice their range.
+  bool intensity_noise = false;  ///< Random error of the intensity of each echo.
+  bool channel_gain = false;     ///< Constant error of the intensity of each channel.
+  bool edge_loss = false;        ///< Losses of beams that meet two surfaces.
 
   // Physics of the finite beam width.
   bool footprint = false;         ///< What a beam of finite width meets, by sub-rays.
@@ -178,6 +182,10 @@ struct ReceiverSpec {
   double range_noise_scale_m = 0.1;    ///< sigma = hypot(floor, scale / sqrt(2 SNR)).
   /// Standard deviation of the constant range errors of the channels.
   double channel_bias_sigma_m = 0.01;
+  /// Standard deviation of the factor by which the intensity of an echo is measured wrong, whose
+  /// mean is 1. It differs from echo to echo.
+  double intensity_noise = 0.0;
+  double channel_gain = 0.0;          ///< The same of a factor that each channel has for good.
   double pointing_jitter_deg = 0.01;  ///< Standard deviation in each of two directions.
   double clutter_gain = 0.2;  ///< Factor for the mean number of raindrop and snowflake echoes.
   /// Range at which the receiver has a quarter of its gain for the echoes of fog; it falls with the
@@ -187,6 +195,8 @@ struct ReceiverSpec {
   /// How long the receiver is blind after an echo that it has detected: an echo less than
   /// c x dead_time_ns / 2 behind it is no return of its own.
   double dead_time_ns = 0.0;
+  /// Probability that a beam is lost of which two surfaces far apart in range have a half each.
+  double edge_loss = 0.0;
   /// Share of a retroreflector's power that a beam still receives which points 1 deg beside it.
   double halo_share_at_1_deg = 0.0;
   /// By how much an echo at the detection threshold is measured farther than a strong one.
@@ -295,6 +305,8 @@ struct DetectorSpec {
   std::uint64_t ground_seed = 1;  ///< Key of the puddles, which are part of the world.
   /// Whether anything in the world may be of a material with `height_rms_um`; false = known not to.
   bool has_mirrors = true;
+  /// Whether any material has a `texture`; false = known not to.
+  bool has_texture = true;
   double range_min_m = 0.5;
   double range_max_m = 300.0;
   EffectSet effects{};

@@ -10,7 +10,7 @@
 namespace railcast {
 
 /// Optical properties of a surface: five parameters of its response, two of which may have a second
-/// value at 1550 nm, and two that say where it mirrors.
+/// value at 1550 nm, how it varies from place to place, and two that say where it mirrors.
 struct Material {
   std::string name;
   double reflectivity{};  ///< Diffuse reflectance at 905 nm; 1 = white Lambertian.
@@ -22,6 +22,9 @@ struct Material {
   double specular_roughness = 0.3;             ///< GGX's alpha.
   /// Peak of a retroreflector, as a multiple of a white Lambertian; 0 = none.
   double retroreflectance = 0.0;
+  /// Standard deviation of the logarithm of its response among cells of 3 cm; the mean response is
+  /// as above.
+  double texture = 0.0;
   /// Standard deviation of the heights of a flat surface that is smooth enough to mirror,
   /// micrometres. Absent = too rough, or not flat.
   std::optional<double> height_rms_um{};

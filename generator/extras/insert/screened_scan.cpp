@@ -162,6 +162,7 @@ ScreenedScan::ScreenedScan(std::shared_ptr<const World> world,
           static_cast<std::size_t>(std::max(num_workers, tbb::info::default_concurrency()))),
       .arena{num_workers}});
   parts_->scenes.UseMotion(spec.detector.velocity.has_value());
+  parts_->scenes.UseTexture(spec.detector.effects.texture);
 }
 
 ScreenedScan::~ScreenedScan() = default;
@@ -191,7 +192,7 @@ void ScreenedScan::Parts::UseRows(std::uint32_t rows, double rate_hz) {
   const auto use = [&](Way& way) {
     way.tracer = std::make_unique<const BeamTracer>(way.spec, materials, pattern);
     DetectorSpec without_dropout = way.spec.detector;
-    without_dropout.effects.sensor_dropout = false;
+    without_dropout.effects.sensor_dropout = without_dropout.effects.edge_loss = false;
     way.unfailing = std::make_unique<const Detector>(
         without_dropout, DetectorSetting{.num_channels = rows, .snow = {}});
     way.work = std::make_unique<WorkOfThreads>(
@@ -223,6 +224,7 @@ CastFrame ScreenedScan::Parts::CastOf(const Way& way,
   CastFrame cast{scene.index, scene.poses,    scene,
                  surfaces,    &scene.wires(), scene.window->window_from_world};
   if (scene.motion) cast.motion = &*scene.motion;
+  cast.textured = &scene.textured;
   const DetectorSpec& detector = way.spec.detector;
   if (detector.effects.spray && HasSpray(detector)) {
     cast.spray = SprayCloudsOf(scenes.world(), detector.weather, {scene.stamp_ns, duration_ns},

@@ -23,7 +23,8 @@ const std::set<std::string> surface_effects{
     "pulse_stretch",     "sensor_dropout", "sunlight",    "surface_response",
     "surface_condition", "cover",          "halo",        "range_walk",
     "interference",      "spray",          "dead_time",   "mirror_paths",
-    "saturation",        "ghost"};
+    "saturation",        "ghost",          "texture",     "intensity_noise",
+    "channel_gain"};
 
 std::set<std::string> SurfaceAnd(const std::set<std::string>& more) {
   std::set<std::string> names = surface_effects;
@@ -53,9 +54,9 @@ TEST(EffectsOfRung, AreThePublishedOnesInPlausibility) {
 TEST(EffectsOfRung, ArePhysicalFromSurfaceOn) {
   EXPECT_EQ(NamesIn(EffectsOfRung(Fidelity::kSurface)), surface_effects);
   EXPECT_EQ(NamesIn(EffectsOfRung(Fidelity::kFootprint)),
-            SurfaceAnd({"footprint", "thin_conductors"}));
+            SurfaceAnd({"footprint", "thin_conductors", "edge_loss"}));
   EXPECT_EQ(NamesIn(EffectsOfRung(Fidelity::kReference)),
-            SurfaceAnd({"footprint", "dense_footprint", "sampled_waveform"}));
+            SurfaceAnd({"footprint", "dense_footprint", "sampled_waveform", "edge_loss"}));
 }
 
 TEST(EffectsOfRung, GoTogetherInEveryRung) {

@@ -50,8 +50,26 @@ ScenarioSpec UnusualScenario(const std::string& mesh_file) {
       {{1, 2, 3}, 4, 5, 6},
       {0.2, 150, 0.02, 2e-4, NoiseShape::kBeam, 0.125, 1e-3, 0.25, 0.0625},
       {1550, {0.5, 0.25}, 3.5, 128},
-      {90, 6, EchoSignal::kEnergy, ReturnMode::kDual, 0.01, 0.2, 0.02, 0.03, 0.4, 3.0, 0.7, 8, 1e-6,
-       0.1, 5, 300.0, 0.1}};
+      {90,
+       6,
+       EchoSignal::kEnergy,
+       ReturnMode::kDual,
+       0.01,
+       0.2,
+       0.02,
+       0.05,
+       0.06,
+       0.03,
+       0.4,
+       3.0,
+       0.7,
+       8,
+       0.3,
+       1e-6,
+       0.1,
+       5,
+       300.0,
+       0.1}};
   spec.weather.fog_density_per_m = 0.01;
   spec.weather.fog_variation = 0.3;
   spec.weather.rain_rate_mmph = 3;
@@ -129,7 +147,7 @@ ScenarioSpec UnusualScenario(const std::string& mesh_file) {
   spec.vehicle.motion.reverse = true;
   spec.vehicle.ego_boxes_m = {{-1, -2, -3, 1, 2, 3}};
   spec.output = {OutputFrame::kWorld, Handedness::kLeft, {1e6, -2, 3.5}};
-  spec.materials = {{"soil", 0.25, 0.3, 20, 0.02, 0.03, 0.15, 570}};
+  spec.materials = {{"soil", 0.25, 0.3, 20, 0.02, 0.03, 0.15, 570, 0.4}};
   spec.labels = {{1, "rail", {1, 2, 3}, "Rails", "track", 260, 49}};
   return spec;
 }

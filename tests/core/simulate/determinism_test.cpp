@@ -155,7 +155,7 @@ ScanPattern Frozen(const ScanPattern& pattern, std::uint32_t frame_index) {
 }
 
 MaterialLibrary BoardMaterials() {
-  return MaterialLibrary({{.name = "grey", .reflectivity = 0.5},
+  return MaterialLibrary({{.name = "grey", .reflectivity = 0.5, .texture = 0.2},
                           {.name = "sheet", .reflectivity = 0.2, .retroreflectance = 500.0}});
 }
 
@@ -179,6 +179,9 @@ SimulatorSpec EveryEffect() {
   detector.receiver.halo_share_at_1_deg = 1e-4;
   detector.receiver.pointing_jitter_deg = 0.05;
   detector.receiver.channel_bias_sigma_m = 0.02;
+  detector.receiver.intensity_noise = 0.1;
+  detector.receiver.channel_gain = 0.15;
+  detector.receiver.edge_loss = 0.5;
   detector.receiver.saturation_power_ratio = 100.0;
   detector.receiver.ghost_reflectance = 0.1;
   detector.receiver.foreign_pulses_hz = 1e4;

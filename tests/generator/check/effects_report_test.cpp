@@ -58,7 +58,7 @@ TEST(EffectsReport, NamesTheKeysOfTheWeatherThatNoEffectReads) {
       last_line(),
       "          no effect that is on reads these keys of weather: rain_dropout_per_m, sun\n");
   scenario.weather = {};
-  EXPECT_EQ(last_line(), "          ghost: none\n");
+  EXPECT_EQ(last_line(), "          channel_gain: sigma 0 %\n");
 }
 
 TEST(EffectsReport, CountsAmongTheReadersOfTheWeatherTheCamera) {
@@ -82,6 +82,7 @@ TEST(EffectsReport, SaysWhatTheWeatherDoesToThePhysicalRungs) {
       "          sensor_dropout: probability 0\n"
       "          surface_response\n"
       "          surface_condition: wetness 1, snow cover 0\n"
+      "          texture: none: no material has one\n"
       "          extinction: fog 0 per m, rain 0.001556, snow 0, both ways\n"
       "          pulse_stretch: pulse of 5 ns, sigma 0.3183 m\n"
       "          mirror_paths: none: no puddles and nothing smooth\n"
@@ -101,6 +102,9 @@ TEST(EffectsReport, SaysWhatTheWeatherDoesToThePhysicalRungs) {
       "          interference: 0 pulses per s, false echoes in 0 of the firings\n"
       "          saturation: none\n"
       "          ghost: none\n"
+      "          intensity_noise: sigma 0 %\n"
+      "          channel_gain: sigma 0 %\n"
+      "          edge_loss: 0 % of the beams halved by a high edge\n"
       "          footprint: 1/e^2 width 3 x 3 mrad, 64 sub-rays\n"
       "          thin_conductors\n");
 }

@@ -28,7 +28,7 @@ DetectorSpec WithoutCauses() {
   spec.receiver.range_noise_floor_m = spec.receiver.range_noise_scale_m = 0.0;
   spec.receiver.channel_bias_sigma_m = spec.receiver.pointing_jitter_deg = 0.0;
   spec.beam.divergence_mrad = {0.0, 0.0};
-  spec.has_mirrors = false;
+  spec.has_mirrors = spec.has_texture = false;
   return spec;
 }
 
@@ -108,6 +108,8 @@ TEST(EffectTable, GivesNoEffectTheCauseOfAnother) {
               UnorderedElementsAre("mirror_paths"));
   EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.has_mirrors = true; }),
               UnorderedElementsAre("mirror_paths"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.has_texture = true; }),
+              UnorderedElementsAre("texture"));
   EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.cover.snow_coverage = 0.1; }),
               UnorderedElementsAre("cover"));
   EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.halo_share_at_1_deg = 1e-6; }),
@@ -120,6 +122,13 @@ TEST(EffectTable, GivesNoEffectTheCauseOfAnother) {
               UnorderedElementsAre("saturation"));
   EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.ghost_reflectance = 0.1; }),
               UnorderedElementsAre("ghost"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.intensity_noise = 0.1; }),
+              UnorderedElementsAre("intensity_noise"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.channel_gain = 0.1; }),
+              UnorderedElementsAre("channel_gain"));
+  // It needs a beam that meets two surfaces.
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.edge_loss = 0.1; }),
+              UnorderedElementsAre());
   EXPECT_THAT(
       CausedBy([](DetectorSpec& s) { s.beam.divergence_mrad[1] = 1.0; }),
       UnorderedElementsAre("footprint", "thin_conductors", "dense_footprint", "sampled_waveform"));
@@ -133,12 +142,13 @@ TEST(EffectTable, KnowsThePhysicalEffects) {
   EXPECT_TRUE(IsPhysical({.threshold = true, .sampled_waveform = true}));
 }
 
-TEST(EffectTable, LeavesRandomRangeErrorsOutOfComparisonsOnly) {
+TEST(EffectTable, LeavesRandomErrorsOfMeasurementOutOfComparisonsOnly) {
   std::vector<std::string> names;
   for (const Effect& effect : EffectTable()) {
-    if (effect.is_range_error) names.emplace_back(effect.name);
+    if (effect.is_measurement_error) names.emplace_back(effect.name);
   }
-  EXPECT_THAT(names, testing::ElementsAre("noise", "range_noise", "channel_bias"));
+  EXPECT_THAT(names, testing::ElementsAre("noise", "range_noise", "channel_bias", "intensity_noise",
+                                          "channel_gain"));
 }
 
 /// Labels of these names with the identifiers 1, 2 and so on.

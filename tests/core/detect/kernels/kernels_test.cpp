@@ -95,6 +95,21 @@ std::unique_ptr<RayTile> MixedRays() {
   return rays;
 }
 
+// Cells on both sides of 0, and some lanes without a texture.
+std::unique_ptr<TextureLanes> MixedTextures() {
+  auto lanes = std::make_unique<TextureLanes>();
+  for (std::uint32_t i = 0; i < kTileSize; ++i) {
+    const auto words = RandomWords(96, RandomUse::kNoise, 0, i);
+    lanes->x[i] = 2000.0F * (UnitFloat(words[0]) - 0.5F);
+    lanes->y[i] = 2000.0F * (UnitFloat(words[1]) - 0.5F);
+    lanes->z[i] = 2000.0F * (UnitFloat(words[2]) - 0.5F);
+    lanes->base_x[i] = lanes->base_y[i] = lanes->base_z[i] = words[3];
+    lanes->instance[i] = i % 3;
+    lanes->variance[i] = i % 4 == 0 ? 0.0F : 0.1F;
+  }
+  return lanes;
+}
+
 // Runs every kernel of the physical rungs in order; returns the results that are not in the tiles.
 std::vector<float> RunPhysics(const Kernels& kernels, RayTile& rays, DetectTile& tile) {
   BeamFrame beam{.sigma_h_rad = 7.5e-4F, .sigma_v_rad = 3.75e-4F};
@@ -105,6 +120,8 @@ std::vector<float> RunPhysics(const Kernels& kernels, RayTile& rays, DetectTile&
   kernels.spread(rays, beam, tile);
   kernels.response(tile, {false, 400'000.0F, 0.3F, 0.9F, 0.1F});
   kernels.pulse_stretch(tile, {0.32F, true, true});
+  const auto textures = MixedTextures();
+  kernels.texture(tile, *textures, {7, 7.5e-4F, 3.75e-4F});
   kernels.extinction(tile, 0.004F);
   kernels.sunlight(tile, {2.0F});
   kernels.cover_loss(tile);
@@ -113,6 +130,8 @@ std::vector<float> RunPhysics(const Kernels& kernels, RayTile& rays, DetectTile&
   kernels.blame_cover(tile);
   kernels.range_walk(tile, 0.2F);
   kernels.saturation(tile, {20.0F, 0.32F});
+  kernels.intensity_noise(tile, {7, 0.1F});
+  kernels.channel_gain(tile, {7, 0.2F});
   kernels.hit(tile, 0.5F);
   const std::vector<float> fog_ratio(20, 1.0F);
   const auto peaks = std::make_unique<FogPeaks>();

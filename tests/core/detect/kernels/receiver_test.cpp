@@ -157,6 +157,116 @@ TEST(ChannelBias, IsNormalOverTheChannels) {
   EXPECT_LE(worst, 1.95 / std::sqrt(kNumChannels));
 }
 
+/// The factors by which intensities of 0.5 are measured wrong, by firing.
+std::vector<double> FactorsOfIntensity(const DetectorSpec& spec,
+                                       std::uint32_t frame,
+                                       std::uint32_t firings_per_channel) {
+  FacingBeams beams{.frame = frame};
+  beams.range_m = [](std::uint32_t) { return 16.0; };
+  beams.channel = [=](std::uint32_t firing) { return firing / firings_per_channel; };
+  beams.num_channels = beams.num_firings / firings_per_channel;
+  std::vector<double> factors;
+  for (const FacingEcho& echo : DetectFacing(spec, beams)) {
+    factors.push_back(static_cast<double>(echo.intensity) / 0.5);
+  }
+  return factors;
+}
+
+// 4 standard errors of the mean, and of the variance of a log-normal law.
+void ExpectFactors(const std::vector<double>& factors, double relative_sigma) {
+  const double variance = relative_sigma * relative_sigma;
+  const double w = 1.0 + variance;
+  const double kurtosis = std::pow(w, 4) + 2.0 * std::pow(w, 3) + 3.0 * w * w - 3.0;
+  const auto num = static_cast<double>(factors.size());
+  double mean = 0.0;
+  double square = 0.0;
+  for (const double factor : factors) mean += factor / num;
+  for (const double factor : factors) square += (factor - mean) * (factor - mean) / num;
+  EXPECT_NEAR(mean, 1.0, 4.0 * relative_sigma / std::sqrt(num));
+  EXPECT_NEAR(square / variance, 1.0, 4.0 * std::sqrt((kurtosis - 1.0) / num));
+}
+
+TEST(IntensityNoise, HasTheStatedSpreadFromEchoToEchoAndKeepsTheMean) {
+  DetectorSpec spec{.seed = 1, .effects = {.intensity_noise = true}};
+  for (const double sigma : {0.09, 0.5}) {
+    spec.receiver.intensity_noise = sigma;
+    ExpectFactors(FactorsOfIntensity(spec, 0, 256), sigma);
+  }
+  EXPECT_NE(FactorsOfIntensity(spec, 1, 256), FactorsOfIntensity(spec, 0, 256));
+}
+
+TEST(IntensityNoise, LeavesPowerAndRangeAsTheyAre) {
+  FacingBeams beams{.num_firings = kTileSize};
+  beams.range_m = [](std::uint32_t firing) { return 16.0 + firing; };
+  DetectorSpec spec{.effects = EffectsOfRung(Fidelity::kSurface)};
+  const auto exact = DetectFacing(spec, beams);
+  spec.receiver.intensity_noise = spec.receiver.channel_gain = 0.2;
+  const auto noisy = DetectFacing(spec, beams);
+  ASSERT_EQ(noisy.size(), exact.size());
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    FacingEcho same = noisy[i];
+    EXPECT_NE(same.intensity, exact[i].intensity);
+    same.intensity = exact[i].intensity;
+    EXPECT_EQ(same, exact[i]);
+  }
+}
+
+TEST(ChannelGain, IsTheSameInEveryFrameAndAnotherForEachChannelAndSensor) {
+  DetectorSpec spec{.seed = 1, .effects = {.channel_gain = true}};
+  spec.receiver.channel_gain = 0.14;
+  const auto factors = FactorsOfIntensity(spec, 0, 1);
+  ExpectFactors(factors, 0.14);
+  EXPECT_EQ(FactorsOfIntensity(spec, 77, 1), factors);
+  const auto of_few = FactorsOfIntensity(spec, 0, 1024);
+  for (std::size_t i = 0; i < of_few.size(); ++i) EXPECT_EQ(of_few[i], factors[i / 1024]);
+  spec.seed = 2;
+  EXPECT_NE(FactorsOfIntensity(spec, 0, 1), factors);
+}
+
+/// The share of beams that are lost which meet surfaces of these shares, `jump_m` apart.
+double ShareLostAtEdge(float near_share, float far_share, float jump_m) {
+  constexpr std::uint32_t kNumBeams = 1U << 16U;
+  const EdgeLossParameters parameters{.seed = 9, .probability = 0.6F, .pulse_length_m = 0.75F};
+  auto echoes = std::make_unique<EchoTiles>();
+  double num_lost = 0.0;
+  FacingBeams beams;
+  beams.range_m = [](std::uint32_t) { return 20.0; };
+  for (std::uint32_t begin = 0; begin < kNumBeams; begin += kTileSize) {
+    FillHits(beams, begin, *echoes);
+    for (std::uint32_t i = 0; i < kTileSize; ++i) {
+      echoes->first.share[i] = near_share;
+      const auto [tile, lane] = echoes->Add(i, 1);
+      tile.surface[lane] = 2;
+      tile.clutter[lane] = kNoClutter;
+      tile.outcome[lane] = static_cast<std::uint32_t>(Outcome::kReturned);
+      tile.share[lane] = far_share;
+      tile.true_range_m[lane] = 20.0F + jump_m;
+    }
+    LoseBeamsAtEdges(parameters, *echoes);
+    for (std::uint32_t i = 0; i < kTileSize; ++i) {
+      const auto [tile, lane] = echoes->more(i);
+      const std::uint32_t outcome = echoes->first.outcome[i];
+      EXPECT_EQ(tile.outcome[lane], outcome) << "a beam is lost as a whole";
+      num_lost += outcome == static_cast<std::uint32_t>(Outcome::kSensorDropout) ? 1.0 : 0.0;
+    }
+  }
+  return num_lost / kNumBeams;
+}
+
+TEST(EdgeLoss, GrowsWithTheSmallerShareAndTheJumpBeyondThePulse) {
+  const auto expect = [](float near_share, float far_share, float jump_m, double p) {
+    EXPECT_NEAR(ShareLostAtEdge(near_share, far_share, jump_m), p,
+                4.0 * std::sqrt(p * (1.0 - p) / (1U << 16U)))
+        << near_share << " " << far_share << " " << jump_m;
+  };
+  expect(0.5F, 0.5F, 7.5F, 0.6 * 0.9);
+  expect(0.2F, 0.8F, 7.5F, 0.6 * 0.9 * 0.4);
+  expect(0.8F, 0.2F, 7.5F, 0.6 * 0.9 * 0.4);
+  expect(0.3F, 0.3F, 1.5F, 0.6 * 0.5);
+  expect(0.5F, 0.5F, 0.75F, 0.0);
+  expect(0.5F, 0.5F, 0.1F, 0.0);
+}
+
 TEST(Measurement, ReportsWhereTheEchoPeaksNotWhereTheSurfaceIs) {
   DetectTile tile{};
   tile.num_rays = 1;

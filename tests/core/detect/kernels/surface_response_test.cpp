@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <numeric>
 
 #include "core/base/units.h"
 #include "core/detect/kernels/echo_power.h"
@@ -36,6 +38,29 @@ const LaneOptics kEverything = LaneOpticsOf({.diffuse = 0.3F,
                                              .specular_f0 = 0.1F,
                                              .specular_roughness = 0.3F,
                                              .retroreflectance = 5.0F});
+
+// Intensities of a painted post in ninths of its width, over their mean: rows of a VLS-128
+// (.53 .86 1.07 1.41 2.27 1.34 1.00 .77 .38), both sides averaged.
+TEST(SurfaceResponse, HasTheProfileOfAPaintedPostThatWasRecorded) {
+  const LaneOptics paint =
+      LaneOpticsOf({.diffuse = 0.3F, .specular_f0 = 0.2F * 0.3F, .specular_roughness = 0.2F});
+  constexpr int kNumSteps = 1000;
+  std::array<double, 9> profile{};
+  for (std::size_t ninth = 0; ninth < profile.size(); ++ninth) {
+    for (int step = 0; step < kNumSteps; ++step) {
+      const double across =
+          (2.0 * (static_cast<double>(ninth) + (step + 0.5) / kNumSteps) - 9.0) / 9.0;
+      const auto cosine = static_cast<float>(std::sqrt(1.0 - across * across));
+      profile[ninth] += static_cast<double>(baseline::EffectiveReflectance(paint, cosine));
+    }
+  }
+  const double mean = std::accumulate(profile.begin(), profile.end(), 0.0) / 9.0;
+  const std::array<double, 5> recorded = {0.455, 0.815, 1.035, 1.375, 2.27};
+  constexpr double kMeanRecorded = 9.63 / 9.0;
+  for (std::size_t i = 0; i < recorded.size(); ++i) {
+    EXPECT_NEAR(profile[i] / mean / (recorded[i] / kMeanRecorded), 1.0, 0.04) << i;
+  }
+}
 
 TEST(SurfaceResponse, IsTheSumOfDiffuseSpecularAndRetro) {
   for (const double incidence_deg : {0.0, 20.0, 60.0, 89.0}) {
