@@ -428,18 +428,18 @@ ScreenedFrame ScreenedScan::Parts::Scan(const RecordedScan& recorded,
   scenes.UseDuration(duration_ns);
   BegunFrame begun = scenes.Begin(recorded.index, recorded.stamp_ns);
   const FrameScene& scene = scenes.SceneOf(begun);
-  double beside_rad = BesideBeam_rad(own.spec.detector);
-  for (const Way& way : variants) {
-    // What is traced in vain stays as it was recorded.
-    beside_rad = std::max(beside_rad, BesideBeam_rad(way.spec.detector));
-  }
+  const double beside_rad = BesideBeam_rad(own.spec.detector);
   const std::vector<bool> is_near = NearObjects(recorded, beside_rad);
   const Wanted all{recorded, scene, duration_ns, returns, TracingOrder(pattern), is_near};
   ScreenedFrame frame = MakeFirings(own, all, true);
-  if (certify) {
-    certify(frame, is_near,
-            [&](const std::vector<bool>& is_wanted) { return MakeAnew(all, is_wanted); });
+  if (!certify) return frame;
+  double widest_rad = beside_rad;
+  for (const Way& way : variants) {
+    widest_rad = std::max(widest_rad, BesideBeam_rad(way.spec.detector));
   }
+  // The frame itself traces no others with them, which would move its rays by parts of 1e-7.
+  certify(frame, widest_rad > beside_rad ? NearObjects(recorded, widest_rad) : is_near,
+          [&](const std::vector<bool>& is_wanted) { return MakeAnew(all, is_wanted); });
   return frame;
 }
 

@@ -85,6 +85,23 @@ TEST(WeightedShares, TellWhatShareOfTheFiringsNoneWasDrawnFrom) {
   EXPECT_DOUBLE_EQ(shares.share_without_drawn(), 0.25);
 }
 
+TEST(WeightedShares, HaveNoUpperEndOfAQuantileThatTooFewTellOf) {
+  for (const int num : {70, 80}) {
+    WeightedShares shares;
+    shares.AddFirings(kInner, 100'000, 1e-3);
+    std::vector<std::pair<std::size_t, double>> values;
+    for (int i = 0; i < num; ++i) {
+      shares.AddDrawn(kInner);
+      values.emplace_back(i, i);
+    }
+    // The largest of 70 is below the 95 % quantile with a probability of 0.95^70 = 2.8 %, that of
+    // 80 with 1.7 %.
+    const auto figure = shares.Quantile(values, 0.95);
+    EXPECT_EQ(figure->high.has_value(), num == 80);
+    if (figure->high) EXPECT_EQ(*figure->high, 79.0);
+  }
+}
+
 /// Firings with known errors, as those of a run: edges are rare and mostly wrong, far ground is
 /// often wrong, near ground hardly ever.
 struct KnownRun {
@@ -180,7 +197,9 @@ TEST(WeightedShares, HaveIntervalsThatCoverTheTrueQuantileIn95Percent) {
       return shares.Quantile(values, share);
     });
     EXPECT_GE(coverage, kLeastCoverage) << share;
-    EXPECT_LE(coverage, 0.995) << share;
+    // Far out, these kinds tell the values apart so well that the interval could be shorter; but
+    // strata are not trusted to narrow it.
+    EXPECT_LE(coverage, share == 0.5 ? 0.995 : 1.0) << share;
   }
 }
 
