@@ -75,6 +75,7 @@ ROWS = (
     ("railcast-analyze frontier", "coarse.json --frames 1 --rows geometry,surface --out frontier",
      ["frontier/report.html", "frontier/frontier.csv"], None),
     ("railcast-analyze preset", "standing.pcap --scenario standing.json --out preset", ["preset/preset.json"], None),
+    ("railcast-analyze preset", "standing.pcap --out receiver", ["receiver/preset.json"], None),
     ("railcast-analyze receive", "127.0.0.1:PORT --frames 2 --out live/arrived_again --summary live/receive.json",
      ["live/arrived_again/frames.csv", "live/receive.json"],
      ("railcast-generate replay", "drive --rate 20 --to 127.0.0.1:PORT")),

@@ -23,12 +23,11 @@ void AddRow(const Frame& frame, const ScanTable& scan, std::size_t row, Jumps& j
   std::size_t before = frame.columns;
   double before_m = 0.0;
   for (std::size_t column = 0; column < frame.columns; ++column) {
-    const auto slot = frame.range_m.begin() +
-                      static_cast<std::ptrdiff_t>(row * frame.width() + column * frame.returns);
-    const auto first = std::find_if(slot, slot + frame.returns,
-                                    [](float range_m) { return std::isfinite(range_m); });
+    const std::size_t slot = row * frame.width() + column * frame.returns;
+    std::size_t first = slot;
+    while (first < slot + frame.returns && std::isnan(frame.range_m[first])) ++first;
     if (first == slot + frame.returns) continue;
-    const auto range_m = static_cast<double>(*first);
+    const auto range_m = static_cast<double>(frame.range_m[first]);
     if (before < column && column - before <= kMostLost + 1 && std::abs(range_m - before_m) > 1.0) {
       const auto [near_m, far_m] = std::minmax(range_m, before_m);
       const double steps = (1.0 / near_m - 1.0 / far_m) / scan.column_step_rad;

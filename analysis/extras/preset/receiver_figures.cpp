@@ -1,5 +1,6 @@
 #include "analysis/extras/preset/receiver_figures.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -48,62 +49,46 @@ TwoDeviations DeviationOf(const BySector& differences, const BySector& less = {}
   return {estimate(kShare, kOfNormal), estimate(1.0, 1.0)};
 }
 
-/// The first returns of a turn.
-class Turn {
- public:
-  Turn(const RecordedFrame& recorded, const ScanTable& scan)
-      : recorded_(recorded),
-        scan_(scan),
-        log_intensity_(std::size_t{scan.rows} * scan.columns,
-                       std::numeric_limits<double>::quiet_NaN()) {
-    for (std::size_t row = 0; row < scan.rows; ++row) {
-      for (std::size_t column = 4; column + 4 < scan.columns; ++column) AddIfSmooth(row, column);
-    }
-  }
+/// The first returns of a turn, by row x columns + column; NaN where there is none on a surface.
+struct Turn {
+  const ScanTable& scan;
+  std::vector<Vector3> position_m{};
+  std::vector<double> range_m{};
+  std::vector<double> log_intensity{};  ///< NaN also where the surface is not smooth.
 
-  [[nodiscard]] const ScanTable& scan() const { return scan_; }
-  [[nodiscard]] double Range_m(std::size_t row, std::size_t column) const {
-    return static_cast<double>(recorded_.frame.range_m[Slot(row, column)]);
+  [[nodiscard]] std::size_t At(std::size_t row, std::size_t column) const {
+    return row * scan.columns + column;
   }
-  [[nodiscard]] Vector3 Position_m(std::size_t row, std::size_t column) const {
-    const Frame& frame = recorded_.frame;
-    const std::size_t slot = Slot(row, column);
-    return {static_cast<double>(frame.x[slot]), static_cast<double>(frame.y[slot]),
-            static_cast<double>(frame.z[slot])};
-  }
-  /// NaN where the surface is not smooth or the intensity does not count.
-  [[nodiscard]] double LogIntensity(std::size_t row, std::size_t column) const {
-    return log_intensity_[row * scan_.columns + column];
-  }
-
- private:
-  [[nodiscard]] std::size_t Slot(std::size_t row, std::size_t column) const {
-    return row * recorded_.frame.width() + column * recorded_.frame.returns;
-  }
-  void AddIfSmooth(std::size_t row, std::size_t column) {
-    constexpr double kSpread_m = 0.03;
-    constexpr double kLeastIntensity = 0.05;
-    double sum = 0.0, slope = 0.0, squares = 0.0;
-    for (int step = -4; step <= 4; ++step) {
-      const std::size_t at = column + static_cast<std::size_t>(step);
-      if (!HasSurfacePoint(recorded_, Slot(row, at))) return;
-      const double range_m = Range_m(row, at);
-      sum += range_m;
-      slope += step * range_m;
-      squares += range_m * range_m;
-    }
-    const double rest_m2 = squares - sum * sum / 9.0 - slope * slope / 60.0;
-    const auto intensity = static_cast<double>(recorded_.frame.intensity[Slot(row, column)]);
-    // Negated so that NaN fails, too.
-    if (!(rest_m2 <= 7.0 * kSpread_m * kSpread_m)) return;
-    if (!(intensity >= kLeastIntensity && intensity <= 1.0)) return;
-    log_intensity_[row * scan_.columns + column] = std::log(intensity);
-  }
-
-  const RecordedFrame& recorded_;
-  const ScanTable& scan_;
-  std::vector<double> log_intensity_;
 };
+
+Turn TurnOf(const RecordedFrame& recorded, const ScanTable& scan) {
+  constexpr double kSpread_m = 0.03;
+  constexpr double kLeastIntensity = 0.05;
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const Frame& frame = recorded.frame;
+  Turn turn{scan};
+  for (std::size_t slot = 0; slot < frame.num_slots(); slot += frame.returns) {
+    turn.position_m.emplace_back(
+        Eigen::Vector3f(frame.x[slot], frame.y[slot], frame.z[slot]).cast<double>());
+    const bool is_there = HasSurfacePoint(recorded, slot);
+    turn.range_m.push_back(is_there ? static_cast<double>(frame.range_m[slot]) : kNone);
+    const auto intensity = static_cast<double>(frame.intensity[slot]);
+    const bool counts = intensity >= kLeastIntensity && intensity <= 1.0;
+    turn.log_intensity.push_back(counts ? std::log(intensity) : kNone);
+  }
+  for (std::size_t cell = 0; cell < turn.range_m.size(); ++cell) {
+    const std::size_t column = cell % scan.columns;
+    double rest_m2 = kNone;
+    if (column >= 4 && column + 4 < scan.columns) {
+      const Eigen::Map<const Eigen::Array<double, 9, 1>> range_m(&turn.range_m[cell - 4]);
+      const double slope = (range_m * Eigen::Array<double, 9, 1>::LinSpaced(-4.0, 4.0)).sum();
+      rest_m2 = (range_m - range_m.mean()).square().sum() - slope * slope / 60.0;
+    }
+    // Negated so that NaN fails, too.
+    if (!(rest_m2 <= 7.0 * kSpread_m * kSpread_m)) turn.log_intensity[cell] = kNone;
+  }
+  return turn;
+}
 
 /// Differences of paired firings of two turns.
 struct TurnDifferences {
@@ -111,32 +96,33 @@ struct TurnDifferences {
 
   void Add(const Turn& earlier, const Turn& later) {
     constexpr double kSame_m = 0.1;
-    const ScanTable& scan = later.scan();
-    const ColumnFinder finder(earlier.scan());
+    const ScanTable& scan = later.scan;
+    const ColumnFinder finder(earlier.scan);
     for (std::size_t column = 0; column < scan.columns; ++column) {
       const double azimuth_rad = scan.column_azimuth_rad[column];
       if (std::isnan(azimuth_rad)) continue;
       const auto found = finder.Nearest(azimuth_rad);
       if (!found || std::abs(found->offset_rad) > 0.5 * scan.column_step_rad) continue;
-      const std::vector<double>& azimuths_rad = earlier.scan().column_azimuth_rad;
+      const std::vector<double>& azimuths_rad = earlier.scan.column_azimuth_rad;
       if (found->column == 0 || found->column + 1 >= azimuths_rad.size()) continue;
       const double ahead_rad =
           WrappedAngle_rad(azimuths_rad[found->column + 1] - azimuths_rad[found->column]);
       const bool is_ahead = found->offset_rad * ahead_rad > 0.0;
       const std::size_t beside = is_ahead ? found->column + 1 : found->column - 1;
       const double share = std::abs(found->offset_rad / ahead_rad);
-      const auto between = [&](double at, double next) {
-        return (1.0 - share) * at + share * next;
+      const auto between = [&](double here, double there) {
+        return (1.0 - share) * here + share * there;
       };
       // The noise of what is between two returns is less than that of one.
       const double times = std::sqrt(2.0 / (1.0 + share * share + (1.0 - share) * (1.0 - share)));
       for (std::size_t row = 0; row < scan.rows; ++row) {
-        const double before =
-            between(earlier.LogIntensity(row, found->column), earlier.LogIntensity(row, beside));
-        const double after = later.LogIntensity(row, column);
+        const std::size_t at = earlier.At(row, found->column);
+        const std::size_t next = earlier.At(row, beside);
+        const std::size_t now = later.At(row, column);
+        const double before = between(earlier.log_intensity[at], earlier.log_intensity[next]);
+        const double after = later.log_intensity[now];
         const double apart_m =
-            later.Range_m(row, column) -
-            between(earlier.Range_m(row, found->column), earlier.Range_m(row, beside));
+            later.range_m[now] - between(earlier.range_m[at], earlier.range_m[next]);
         if (std::isnan(before + after) || std::abs(apart_m) > kSame_m) continue;
         const std::size_t sector = SectorOf(scan, row, column);
         const double mean = 0.5 * (std::exp(before) + std::exp(after));
@@ -164,14 +150,15 @@ struct TurnDifferences {
 /// Adds differences of two firings of a ring on one smooth surface, of each one for each lag.
 void AddTexture(const Turn& turn, std::array<BySector, kTextureLags_m.size()>& differences) {
   constexpr double kTolerance = 1.2;
-  const ScanTable& scan = turn.scan();
+  const ScanTable& scan = turn.scan;
   for (std::size_t row = 0; row < scan.rows; ++row) {
     for (std::size_t column = 0; column < scan.columns; ++column) {
+      const std::size_t at = turn.At(row, column);
       std::size_t lag = 0;
-      for (std::size_t other = column + 1; other < scan.columns; ++other) {
-        const double difference = turn.LogIntensity(row, other) - turn.LogIntensity(row, column);
+      for (std::size_t other = at + 1; other < turn.At(row + 1, 0); ++other) {
+        const double difference = turn.log_intensity[other] - turn.log_intensity[at];
         if (std::isnan(difference)) break;
-        const double apart_m = (turn.Position_m(row, other) - turn.Position_m(row, column)).norm();
+        const double apart_m = (turn.position_m[other] - turn.position_m[at]).norm();
         while (lag < differences.size() && apart_m > kTextureLags_m.at(lag) * kTolerance) ++lag;
         if (lag == differences.size()) break;
         if (apart_m < kTextureLags_m.at(lag) / kTolerance) continue;
@@ -190,24 +177,25 @@ std::array<double, 2> BrighterBy(const std::vector<Turn>& turns,
   constexpr double kSameRange = 0.05;
   std::array<std::vector<double>, 2> differences;
   for (const Turn& turn : turns) {
-    for (std::size_t column = 0; column < turn.scan().columns; ++column) {
-      const auto low = turn.scan().ColumnBeside(row, column, below);
-      const auto high = turn.scan().ColumnBeside(row, column, above);
-      if (!low || !high) continue;
+    for (std::size_t column = 0; column < turn.scan.columns; ++column) {
+      const auto low_column = turn.scan.ColumnBeside(row, column, below);
+      const auto high_column = turn.scan.ColumnBeside(row, column, above);
+      if (!low_column || !high_column) continue;
+      const std::size_t at = turn.At(row, column);
+      const std::size_t low = turn.At(below, *low_column);
+      const std::size_t high = turn.At(above, *high_column);
       const double difference =
-          turn.LogIntensity(row, column) -
-          0.5 * (turn.LogIntensity(below, *low) + turn.LogIntensity(above, *high));
-      const double range_m = turn.Range_m(row, column);
-      const double beside_m = 0.5 * (turn.Range_m(below, *low) + turn.Range_m(above, *high));
-      if (std::isnan(difference) || std::abs(range_m - beside_m) > kSameRange * range_m) continue;
-      differences.at(SectorOf(turn.scan(), row, column) / 3 % 2).push_back(difference);
+          turn.log_intensity[at] - 0.5 * (turn.log_intensity[low] + turn.log_intensity[high]);
+      const double apart_m = turn.range_m[at] - 0.5 * (turn.range_m[low] + turn.range_m[high]);
+      if (std::isnan(difference) || std::abs(apart_m) > kSameRange * turn.range_m[at]) continue;
+      differences.at(SectorOf(turn.scan, row, column) / 3 % 2).push_back(difference);
     }
   }
   return {Median(differences[0]).value, Median(differences[1]).value};
 }
 
 Estimate ChannelGain(const std::vector<Turn>& turns) {
-  const std::vector<double>& elevation_rad = turns.front().scan().elevation_rad;
+  const std::vector<double>& elevation_rad = turns.front().scan.elevation_rad;
   std::vector<std::size_t> order;
   for (std::size_t row = 0; row < elevation_rad.size(); ++row) {
     if (!std::isnan(elevation_rad[row])) order.push_back(row);
@@ -280,7 +268,7 @@ ReceiverFigures FindReceiverFigures(const std::vector<RecordedFrame>& turns) {
   TurnDifferences differences;
   std::array<BySector, kTextureLags_m.size()> texture;
   for (std::size_t i = 0; i < grids.size(); ++i) {
-    seen.emplace_back(*grids[i], scans[i]);
+    seen.push_back(TurnOf(*grids[i], scans[i]));
     AddTexture(seen.back(), texture);
     if (i > 0) differences.Add(seen[i - 1], seen[i]);
   }

@@ -46,8 +46,8 @@ struct ReceiverFigures {
   /// Whether ranges say that the sensor moved: turns then do not tell noise, and the texture has it
   /// included.
   bool has_moved{};
-  /// Of a return, from paired firings of two turns less than half a column apart, / sqrt(2); that
-  /// of log intensity for means of 0.12 to 0.25. What half a column changes is included.
+  /// Of a return, from a firing and what the turn before shows there, between two columns; that of
+  /// log intensity for means of 0.12 to 0.25. Texture finer than the columns adds to it.
   TwoDeviations intensity_noise, range_noise_m;
   /// Standard deviation over channels: root of the covariance between even and odd sectors of
   /// 30 deg of the medians of log intensity less the neighbouring channels' on the same surface,

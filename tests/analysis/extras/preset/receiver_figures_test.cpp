@@ -188,7 +188,7 @@ TEST(RealReceivers, ShowWhatThePageSays) {
     EXPECT_THAT(page, testing::HasSubstr(row));
   }
   ScenarioSpec scenario = PresetScenario("vls128");
-  for (Material& material : scenario.materials) material.reflectivity = 0.18;
+  for (Material& material : scenario.materials) material.reflectivity = 0.45;
   const std::string ours = RowOf("ours, a yard", FindReceiverFigures(RecordYard(scenario)));
   std::puts(ours.c_str());
   EXPECT_THAT(page, testing::HasSubstr(ours));
