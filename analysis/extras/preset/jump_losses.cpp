@@ -31,9 +31,8 @@ void AddRow(const Frame& frame, const ScanTable& scan, std::size_t row, Jumps& j
     if (before < column && column - before <= kMostLost + 1 && std::abs(range_m - before_m) > 1.0) {
       const auto [near_m, far_m] = std::minmax(range_m, before_m);
       const double steps = (1.0 / near_m - 1.0 / far_m) / scan.column_step_rad;
-      const bool is_near_first = before_m < range_m;
       jumps.at(SectorOf(scan, row, column))
-          .push_back({.row = {1.0, is_near_first ? steps : 0.0, is_near_first ? 0.0 : steps},
+          .push_back({.row = {1.0, steps, before_m < range_m ? 0.0 : steps},
                       .num_lost = static_cast<double>(column - before - 1),
                       .size_m = far_m - near_m,
                       .is_beyond_1m = near_m > 1.0});
@@ -89,8 +88,8 @@ JumpLosses FindJumpLosses(const std::vector<const RecordedFrame*>& turns,
                 return right[0] / normal(0, 0);
               }),
           .base = fitted(0),
-          .near_first_m = fitted(1),
-          .near_last_m = fitted(2)};
+          .common_m = fitted(1),
+          .aside_m = fitted(2)};
 }
 
 }  // namespace railcast

@@ -37,9 +37,10 @@ struct JumpLosses {
   Estimate share;
   /// Firings without a return at a jump of 1 m or more with the near side beyond 1 m, up to four,
   ///   base + b (1 / near - 1 / far) / step of azimuth,
-  /// by least squares. A receiver at b beside its emitter does not see so much of the far side past
-  /// the near one: where the ring meets the near side first, in the order of columns, or last.
-  Estimate base, near_first_m, near_last_m;
+  /// by least squares, with b = `common`, and `aside` more where the ring meets the near side last,
+  /// in the order of columns. A receiver at |aside| beside its emitter does not see so much of the
+  /// far side past one end of each near one; what both ends have in common comes from the scene.
+  Estimate base, common_m, aside_m;
 };
 
 struct ReceiverFigures {

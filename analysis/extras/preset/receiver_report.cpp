@@ -38,8 +38,8 @@ Section MakeReceiverSection(const ReceiverFigures& figures) {
   }
   add_one("lost at depth jumps of 3 to 10 m", "%", kPercent, figures.jumps.share);
   add_one("firings lost at an edge: base", "", 1.0, figures.jumps.base);
-  add_one("firings lost at an edge: b, near side first", "mm", kMm, figures.jumps.near_first_m);
-  add_one("firings lost at an edge: b, near side last", "mm", kMm, figures.jumps.near_last_m);
+  add_one("firings lost at an edge: b", "mm", kMm, figures.jumps.common_m);
+  add_one("firings lost at an edge: b more, near side last", "mm", kMm, figures.jumps.aside_m);
   add_one("interior holes", "%", kPercent, figures.holes);
   Section section{
       "receiver",
@@ -48,8 +48,8 @@ Section MakeReceiverSection(const ReceiverFigures& figures) {
        "gain "
        "sets it apart from its neighbours on the same surfaces. Texture is the semideviation of "
        "log intensity along a ring, less the noise. At an edge, base + b (1 / near - 1 / far) / "
-       "step of azimuth firings are lost, as by a receiver at b beside the emitter; which side is "
-       "first, is by the order of columns."}};
+       "step of azimuth firings are lost; b is more, or less, where the ring meets the near side "
+       "last, in the order of columns, by how far the receiver stands beside its emitter."}};
   if (figures.range_noise_m.rms.num == 0) {
     section.paragraphs.emplace_back("Turns do not tell noise here: texture has it included.");
   }

@@ -96,10 +96,10 @@ TEST(ReceiverFigures, AreThoseOfAMadeRecording) {
   // 40 rings with 60 edges in 4 turns, of which a quarter each loses 0.1, 0.1, 0.77 and 0.29.
   EXPECT_NEAR(figures.jumps.share.value, 0.315, 4.0 * 0.4 / std::sqrt(9600.0));
   EXPECT_NEAR(figures.jumps.base.value, truth.base, 0.03);
-  EXPECT_NEAR(figures.jumps.near_first_m.value, 0.0, 0.001);
-  EXPECT_NEAR(figures.jumps.near_last_m.value, truth.near_last_m, 0.001);
+  EXPECT_NEAR(figures.jumps.common_m.value, 0.0, 0.001);
+  EXPECT_NEAR(figures.jumps.aside_m.value, truth.near_last_m, 0.001);
   for (const Estimate& estimate : {figures.intensity_noise.rms, figures.jumps.base,
-                                   figures.jumps.near_last_m, figures.channel_gain}) {
+                                   figures.jumps.aside_m, figures.channel_gain}) {
     EXPECT_LT(estimate.low, estimate.value);
     EXPECT_GT(estimate.high, estimate.value);
   }
@@ -156,9 +156,9 @@ std::string RowOf(const std::string& sensor, const ReceiverFigures& figures) {
     row += Text(texture.rms, 1.0, "%.2f") + (&texture == &figures.texture.back() ? " | " : " / ");
   }
   return row + Text(figures.jumps.share, 100.0) + " | " + Text(figures.jumps.base, 1.0, "%.2f") +
-         " | " + WithEnds(figures.jumps.near_first_m) + " | " +
-         WithEnds(figures.jumps.near_last_m) + " | " + Text(figures.holes, 100.0, "%.2f") + " | " +
-         both(figures.range_noise_m, 1e3) + " |";
+         " | " + WithEnds(figures.jumps.common_m) + " | " + WithEnds(figures.jumps.aside_m) +
+         " | " + Text(figures.holes, 100.0, "%.2f") + " | " + both(figures.range_noise_m, 1e3) +
+         " |";
 }
 
 // The table of docs/results/validation.md.
