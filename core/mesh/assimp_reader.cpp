@@ -417,12 +417,13 @@ bool HasAssimp() {
 }
 
 SceneMesh ReadScene(SceneSource source, const std::string& shown) {
-  const std::string extension = ExtensionOf(source.format);
   if (source.format == MeshFormat::kGlb) CheckGlb(source.bytes, shown);
   std::vector<std::string> unread;
   if (source.format == MeshFormat::kGltf || source.format == MeshFormat::kGlb) {
     unread = CheckGltf(source.bytes, shown);
+    MakePositionsFloats(source, shown);
   }
+  const std::string extension = ExtensionOf(source.format);
   if (source.format == MeshFormat::kDae) source.bytes = PlainDae(std::move(source.bytes));
   const SceneGathering gathering{.shown = shown};
   const ProcessLimits limits = LimitsOf(source);

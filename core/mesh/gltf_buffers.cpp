@@ -60,18 +60,6 @@ std::vector<std::string> StringsIn(const nlohmann::json& json, const char* key) 
   return strings;
 }
 
-/// The value of a key in an object, or of an index in a list; null if it is not there.
-const nlohmann::json& ValueIn(const nlohmann::json& json, const nlohmann::json& key) {
-  static const nlohmann::json none;
-  if (json.is_object() && key.is_string()) {
-    const auto found = json.find(key.get<std::string>());
-    return found == json.end() ? none : *found;
-  }
-  const bool is_index = json.is_array() && key.is_number_unsigned();
-  const std::size_t index = is_index ? key.get<std::size_t>() : json.size();
-  return index < json.size() ? json[index] : none;
-}
-
 /// Throws unless a member of an accessor, if it is there, is one of these.
 void CheckMember(const std::string& place,
                  const nlohmann::json& object,
@@ -84,9 +72,10 @@ void CheckMember(const std::string& place,
 }
 
 /// Throws if positions and indices are not as the format has them, which assimp does not ask.
-/// Positions that are whole numbers have another scale, which it does not know.
+/// Positions may be whole numbers where the file says so.
 void CheckPrimitive(const nlohmann::json& json,
                     const nlohmann::json& primitive,
+                    bool is_quantised,
                     const std::string& shown) {
   constexpr int kTriangles = 4;
   const nlohmann::json& accessors = ValueIn(json, "accessors");
@@ -96,21 +85,26 @@ void CheckPrimitive(const nlohmann::json& json,
   const nlohmann::json& indices = ValueIn(accessors, index_key);
   const std::string place = shown + ": accessors/" + key.dump();
   const std::string index_place = shown + ": accessors/" + index_key.dump();
-  CheckMember(place, positions, "componentType", {5126},
-              std::string("of POSITION must be 5126, float; KHR_mesh_quantization is not read (") +
-                  kWithGltfpack + ")");
+  if (is_quantised) {
+    CheckMember(place, positions, "componentType", {5120, 5121, 5122, 5123, 5126},
+                "of POSITION must be 5120 to 5123 or 5126");
+  } else {
+    CheckMember(place, positions, "componentType", {5126},
+                "of POSITION must be 5126, float, unless KHR_mesh_quantization is required");
+  }
   CheckMember(place, positions, "type", {"VEC3"}, "of POSITION must be VEC3");
   CheckMember(index_place, indices, "componentType", {5121, 5123, 5125},
               "of indices must be 5121, 5123 or 5125");
   const nlohmann::json& view_key = ValueIn(positions, "bufferView");
   const nlohmann::json& stride =
       ValueIn(ValueIn(ValueIn(json, "bufferViews"), view_key), "byteStride");
-  const bool is_stride = stride.is_number_unsigned() && stride >= 12 && stride <= 252 &&
+  const int least = is_quantised ? 4 : 12;
+  const bool is_stride = stride.is_number_unsigned() && stride >= least && stride <= 252 &&
                          stride.get<std::uint64_t>() % 4 == 0;
   if (!stride.is_null() && !is_stride) {
     throw InputError(shown + ": bufferViews/" + view_key.dump() +
-                     "/byteStride: of POSITION must be a multiple of 4 from 12 to 252 (got " +
-                     ShownText(stride.dump()) + ")");
+                     "/byteStride: of POSITION must be a multiple of 4 from " + NumberText(least) +
+                     " to 252 (got " + ShownText(stride.dump()) + ")");
   }
   const nlohmann::json& mode = ValueIn(primitive, "mode");
   const nlohmann::json& count = ValueIn(index_key.is_null() ? positions : indices, "count");
@@ -136,18 +130,6 @@ void CheckNode(const nlohmann::json& node, const std::string& place) {
   }
 }
 
-/// Whether morph targets move vertices.
-bool HasMorphs(const nlohmann::json& json) {
-  for (const char* list : {"meshes", "nodes"}) {
-    for (const auto& one : ValueIn(json, list)) {
-      for (const auto& weight : ValueIn(one, "weights")) {
-        if (weight.is_number() && weight != 0) return true;
-      }
-    }
-  }
-  return false;
-}
-
 /// Throws if data within the file have other letters than base64.
 void CheckLetters(const nlohmann::json& json, const std::string& shown) {
   constexpr std::string_view kLetters =
@@ -167,9 +149,24 @@ void CheckLetters(const nlohmann::json& json, const std::string& shown) {
 
 }  // namespace
 
+nlohmann::json JsonOfGltf(const std::string& bytes) {
+  return nlohmann::json::parse(JsonOf(bytes), nullptr, false);
+}
+
+const nlohmann::json& ValueIn(const nlohmann::json& json, const nlohmann::json& key) {
+  static const nlohmann::json none;
+  if (json.is_object() && key.is_string()) {
+    const auto found = json.find(key.get<std::string>());
+    return found == json.end() ? none : *found;
+  }
+  const bool is_index = json.is_array() && key.is_number_unsigned();
+  const std::size_t index = is_index ? key.get<std::size_t>() : json.size();
+  return index < json.size() ? json[index] : none;
+}
+
 std::vector<std::string> BuffersOfGltf(const std::string& bytes) {
   std::vector<std::string> names;
-  const auto json = nlohmann::json::parse(JsonOf(bytes), nullptr, false);
+  const auto json = JsonOfGltf(bytes);
   if (!json.is_object() || !json.contains("buffers")) return names;
   // A list, or in glTF 1 an object, in which this one is the file itself, whatever its uri.
   for (const auto& [key, buffer] : json.at("buffers").items()) {
@@ -183,15 +180,17 @@ std::vector<std::string> BuffersOfGltf(const std::string& bytes) {
 }
 
 std::vector<std::string> CheckGltf(const std::string& bytes, const std::string& shown) {
-  const auto json = nlohmann::json::parse(JsonOf(bytes), nullptr, false);
-  for (const std::string& name : StringsIn(json, "extensionsRequired")) {
+  const auto json = JsonOfGltf(bytes);
+  const auto required = StringsIn(json, "extensionsRequired");
+  for (const std::string& name : required) {
     if (IsHarmless(name)) continue;
     throw InputError(shown + ": extensionsRequired: must be extensions that are read; " +
                      WithoutExtension(name) + " (got " + Quoted(name) + ")");
   }
+  const bool is_quantised = std::ranges::find(required, "KHR_mesh_quantization") != required.end();
   for (const auto& mesh : ValueIn(json, "meshes")) {
     for (const auto& primitive : ValueIn(mesh, "primitives"))
-      CheckPrimitive(json, primitive, shown);
+      CheckPrimitive(json, primitive, is_quantised, shown);
   }
   for (const auto& [key, node] : ValueIn(json, "nodes").items()) {
     CheckNode(node, shown + ": nodes/" + ShownText(key));
@@ -199,12 +198,11 @@ std::vector<std::string> CheckGltf(const std::string& bytes, const std::string& 
   CheckLetters(json, shown);
   std::vector<std::string> unread = StringsIn(json, "extensionsUsed");
   std::erase_if(unread, IsHarmless);
-  if (HasMorphs(json)) unread.emplace_back("weights of morph targets");
   return unread;
 }
 
 std::optional<std::size_t> TrianglesOfGltf(const std::string& bytes, std::size_t num_primitives) {
-  const auto json = nlohmann::json::parse(JsonOf(bytes), nullptr, false);
+  const auto json = JsonOfGltf(bytes);
   std::size_t num_triangles = 0;
   std::size_t num_found = 0;
   for (const auto& mesh : ValueIn(json, "meshes")) {

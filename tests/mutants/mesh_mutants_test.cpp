@@ -399,8 +399,9 @@ TEST(MeshMutants, OfGltfAreNeverReadWrongWithoutAWord) {
        "\"sparse\": {\"count\": 1, \"indices\": {\"bufferView\": 1, \"componentType\": 5123}, "
        "\"values\": {\"bufferView\": 0}}, \"count\": 10");
   with("morph targets", "\"mode\": 4", "\"mode\": 4, \"targets\": [{\"POSITION\": 0}]");
-  with("morph targets with weights", "\"mode\": 4}]",
-       "\"mode\": 4, \"targets\": [{\"POSITION\": 0}]}], \"weights\": [1]");
+  with("weights of other morph targets", "\"mode\": 4}]",
+       "\"mode\": 4, \"targets\": [{\"POSITION\": 0}]}], \"weights\": [1, 0]");
+  with("weights of other morph targets", "\"mesh\": 0,", "\"mesh\": 0, \"weights\": [0, 1],");
   with("a skin", "\"mesh\": 0,", "\"mesh\": 0, \"skin\": 0,");
   for (const char* other :
        {"\"scale\": [0, 0, 0]", "\"rotation\": [0, 0, 0, 0]", "\"rotation\": [0, 0, 0, 5]",

@@ -311,21 +311,117 @@ TEST_F(SceneImport, TellsWhatGltfUsesAndIsNotRead) {
                                                 "\"EXT_mesh_gpu_instancing\""}}));
 }
 
-TEST_F(SceneImport, TellsThatMorphTargetsOfGltfAreNotRead) {
-  const auto told = [](const std::string& weights) {
-    return ParseMesh(TriangleGltf("{\"mesh\": 0, \"weights\": " + weights + "}"), "a.gltf").remarks;
-  };
-  EXPECT_TRUE(told("[0, 0.0]").empty());
-  EXPECT_EQ(told("[0, 0.5]"), (std::vector<Remark>{{RemarkKind::kExtensionUnread, "a.gltf", 1,
-                                                    "\"weights of morph targets\""}}));
+/// glTF 2, text or binary, of nodes, meshes, accessors and views; its buffer holds what it is
+/// given.
+std::string GltfOf(const std::string& members, const std::string& buffer) {
+  std::string json = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+    "extensionsRequired": ["KHR_mesh_quantization"], )" +
+                     members + R"(, "buffers": [{"byteLength": )" + std::to_string(buffer.size()) +
+                     "}]}";
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  return "glTF" + Number(2) + Number(28 + json.size() + buffer.size()) + Number(json.size()) +
+         "JSON" + json + Number(buffer.size()) + std::string("BIN\0", 4) + buffer;
 }
 
-TEST_F(SceneImport, RefusesPositionsOfGltfThatAreNoFloats) {
+/// Three corners, each coordinate of so many bytes, two elements apart from each other by `stride`.
+std::string CornersOf(const std::array<std::array<int, 3>, 3>& corners,
+                      std::size_t size,
+                      std::size_t stride) {
+  std::string bytes(3 * stride, '\x55');
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k)
+      std::memcpy(bytes.data() + i * stride + k * size, &corners[i][k], size);
+  }
+  return bytes;
+}
+
+// "Normalised" divides by the largest number of the type, and -128 stands for -1, too (glTF 2.0,
+// 3.6.2.2). The boxes are x, -z, y of the corners.
+TEST_F(SceneImport, ReadsQuantisedPositionsOfGltf) {
+  struct Case {
+    int type;
+    bool is_normalised;
+    std::size_t size;
+    std::array<int, 3> far;
+    Vector3 expected;
+  };
+  for (const Case& one : {Case{5120, false, 1, {-128, 100, 7}, {-128, 100, 7}},
+                          Case{5120, true, 1, {-128, 127, -127}, {-1, 1, -1}},
+                          Case{5121, false, 1, {255, 1, 200}, {255, 1, 200}},
+                          Case{5121, true, 1, {255, 51, 102}, {1, 0.2, 0.4}},
+                          Case{5122, false, 2, {-30000, 1, 5}, {-30000, 1, 5}},
+                          Case{5122, true, 2, {-32768, 32767, -32767}, {-1, 1, -1}},
+                          Case{5123, false, 2, {60000, 1, 5}, {60000, 1, 5}},
+                          Case{5123, true, 2, {65535, 13107, 26214}, {1, 0.2, 0.4}}}) {
+    const std::string bytes = GltfOf(
+        R"("nodes": [{"mesh": 0, "scale": [0.125, 0.125, 0.125]}, {}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "count": 3, "type": "VEC3", "componentType": )" +
+            std::to_string(one.type) + R"(, "normalized": )" +
+            (one.is_normalised ? "true" : "false") + R"(}],
+        "bufferViews": [{"buffer": 0, "byteStride": )" +
+            std::to_string(4 * one.size) + R"(, "byteLength": )" + std::to_string(12 * one.size) +
+            "}]",
+        CornersOf({{{0, 0, 0}, {one.far[0], 0, 0}, one.far}}, one.size, 4 * one.size));
+    const ImportedMesh mesh = ParseMesh(bytes, "a.glb");
+    Box box(Vector3(0, 0, 0));
+    box.extend(0.125 * Vector3(one.expected.x(), -one.expected.z(), one.expected.y()));
+    EXPECT_TRUE(BoxOf(mesh).isApprox(box, 1e-6)) << one.type << " " << one.is_normalised;
+    EXPECT_TRUE(mesh.remarks.empty());
+  }
+}
+
+/// A triangle of legs 1 with a target that moves its corners by (0, 0, 8), as floats, and one that
+/// moves the third alone by (0, 4, 0), sparse and as bytes.
+std::string MorphedGltf(const std::string& nodes, const std::string& weights) {
+  return GltfOf("\"nodes\": " + nodes + R"(, "meshes": [{"weights": )" + weights +
+                    R"(, "primitives": [{"attributes": {"POSITION": 0},
+                         "targets": [{"POSITION": 1}, {"POSITION": 2}]}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+                  {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC3"},
+                  {"componentType": 5120, "count": 3, "type": "VEC3", "sparse": {"count": 1,
+                   "indices": {"bufferView": 2, "componentType": 5121},
+                   "values": {"bufferView": 2, "byteOffset": 4}}}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36},
+                    {"buffer": 0, "byteOffset": 36, "byteLength": 36},
+                    {"buffer": 0, "byteOffset": 72, "byteLength": 8}])",
+                BytesOfFloats({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 8, 0, 0, 8, 0, 0, 8}) +
+                    std::string("\2\0\0\0\0\4\0\0", 8));
+}
+
+// z up: what the first target moves goes to -y, what the second one moves up.
+TEST_F(SceneImport, MovesVerticesOfGltfByTheWeightsOfTheNodeOrElseOfTheMesh) {
+  const auto box = [](const std::string& nodes, const std::string& weights) {
+    const ImportedMesh mesh = ParseMesh(MorphedGltf(nodes, weights), "a.glb");
+    EXPECT_TRUE(mesh.remarks.empty());
+    return BoxOf(mesh);
+  };
+  const std::string plain = "[{\"mesh\": 0}, {}]";
+  EXPECT_TRUE(box(plain, "[0, 0]").isApprox(standing, 1e-6));
+  EXPECT_TRUE(box(plain, "[0.5, 0.25]").isApprox(Box(Vector3(0, -4, 0), Vector3(1, -4, 2)), 1e-6));
+  EXPECT_TRUE(box(R"([{"mesh": 0, "weights": [0, 0]}, {}])", "[1, 1]").isApprox(standing, 1e-6));
+  EXPECT_TRUE(box(R"([{"mesh": 0}, {"mesh": 0, "weights": [1, 0]}])", "[0, 1]")
+                  .isApprox(Box(Vector3(0, -8, 0), Vector3(1, 0, 5)), 1e-6));
+  const auto message = [](const std::string& weights) {
+    return MessageOf(
+        [&] { (void)ParseMesh(MorphedGltf("[{\"mesh\": 0}, {}]", weights), "a.glb"); });
+  };
+  EXPECT_EQ(message("[1]"), "a.glb: weights: must be one for each morph target (got 1 for 2)");
+}
+
+TEST_F(SceneImport, RefusesPositionsOfGltfThatAreNoFloatsUnlessTheFileSaysSo) {
   const std::string bytes = Replaced(GltfWith("\"extensionsUsed\": []"), "5126", "5123");
   EXPECT_EQ(MessageOf([&] { (void)ParseMesh(bytes, "a.gltf"); }),
-            "a.gltf: accessors/0/componentType: of POSITION must be 5126, float; "
-            "KHR_mesh_quantization is not read (gltfpack -noq -i IN.glb -o OUT.glb writes it "
-            "without) (got 5123)");
+            "a.gltf: accessors/0/componentType: of POSITION must be 5126, float, unless "
+            "KHR_mesh_quantization is required (got 5123)");
+}
+
+TEST_F(SceneImport, RefusesQuantisedPositionsBeyondTheirBuffer) {
+  const std::string bytes = Replaced(
+      Replaced(GltfWith("\"extensionsRequired\": [\"KHR_mesh_quantization\"]"), "5126", "5123"),
+      "\"count\": 3", "\"count\": 9");
+  EXPECT_EQ(MessageOf([&] { (void)ParseMesh(bytes, "a.gltf"); }),
+            "a.gltf: accessors/0: must lie within its bufferView, which holds 6 elements (got 9)");
 }
 
 std::string GltfWithMaterials(const std::string& materials) {
