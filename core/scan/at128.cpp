@@ -197,7 +197,8 @@ FramesOfFirings At128Firings(const FiringTableSpec& spec, double rate_hz, ErrorL
   if (spec.frames != At128Correction::kFields) {
     errors.Add(FaultOf("/pattern/frames", "must be 3, the mirrors of an AT128", spec.frames));
   }
-  if (!(rate_hz >= 1.0 && rate_hz <= 100.0)) {
+  const bool is_rate = rate_hz >= 0.01 && rate_hz <= 1e6;  // Others are told for all patterns.
+  if (is_rate && !(rate_hz >= 1.0 && rate_hz <= 100.0)) {
     errors.Add(FaultOf("/rate_hz", "must be >= 1 and <= 100 with an AT128's file", rate_hz));
   }
   const auto correction = Attempt("/pattern/file: ", errors, [&] {

@@ -157,6 +157,7 @@ TEST(At128Sweep, SaysWhatIsWrong) {
   };
   EXPECT_EQ(said(1, 10.0), "/pattern/frames: must be 3, the mirrors of an AT128 (got 1)");
   EXPECT_EQ(said(3, 0.5), "/rate_hz: must be >= 1 and <= 100 with an AT128's file (got 0.5)");
+  EXPECT_EQ(said(3, 0.0), "/rate_hz: must be >= 0.01 and <= 1000000 (got 0)") << "said once";
   const TemporaryDirectory folder;
   const std::string cut = (folder.path() / "cut.dat").string();
   std::ofstream(cut) << "\xEE\xFF";
