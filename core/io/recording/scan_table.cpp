@@ -56,9 +56,23 @@ void FindElevations(const DirectionGrid& grid, ScanTable& table) {
   FillGaps(table.elevation_rad);
 }
 
+/// The median or, with a reach, the mean of what is within it of the median.
+double MeanNearMedian(std::vector<double>& values, double reach_rad) {
+  const double median_rad = MedianOf(values);
+  if (reach_rad == 0.0) return median_rad;
+  double sum_rad = 0.0;
+  double num = 0.0;
+  for (const double value : values) {
+    if (std::abs(value - median_rad) > reach_rad) continue;
+    sum_rad += value;
+    num += 1.0;
+  }
+  return sum_rad / num;
+}
+
 // Finds the columns' azimuths from those of the points less their rows' offsets. Each column
 // continues from the one before it, so that the azimuth is unwrapped.
-void FindColumns(const DirectionGrid& grid, ScanTable& table) {
+void FindColumns(const DirectionGrid& grid, double reach_rad, ScanTable& table) {
   table.column_azimuth_rad.assign(grid.columns, kUnknown);
   double last_rad = kUnknown;
   std::vector<double> values;
@@ -72,13 +86,13 @@ void FindColumns(const DirectionGrid& grid, ScanTable& table) {
       values.push_back(WrappedAngle_rad(own_rad - last_rad));
     }
     if (values.empty()) continue;
-    last_rad += MedianOf(values);
+    last_rad += MeanNearMedian(values, reach_rad);
     table.column_azimuth_rad[column] = last_rad;
   }
   FillGaps(table.column_azimuth_rad);
 }
 
-void FindRowOffsets(const DirectionGrid& grid, ScanTable& table) {
+void FindRowOffsets(const DirectionGrid& grid, double reach_rad, ScanTable& table) {
   std::vector<double> values;
   for (std::size_t row = 0; row < grid.rows; ++row) {
     values.clear();
@@ -87,7 +101,7 @@ void FindRowOffsets(const DirectionGrid& grid, ScanTable& table) {
       if (std::isnan(azimuth_rad)) continue;
       values.push_back(WrappedAngle_rad(azimuth_rad - table.column_azimuth_rad[column]));
     }
-    if (!values.empty()) table.row_azimuth_rad[row] = MedianOf(values);
+    if (!values.empty()) table.row_azimuth_rad[row] = MeanNearMedian(values, reach_rad);
   }
 }
 
@@ -148,7 +162,9 @@ bool HasLevelRows(const DirectionGrid& grid, const ScanTable& table) {
   return MedianOf(deviations_rad) < kMostSteps * table.row_step_rad;
 }
 
-std::optional<ScanTable> TableOf(const DirectionGrid& grid) {
+/// @param num_settling Further passes, for rows that see other columns than each other: medians
+///   leave an offset between them, which means carry on from row to row until it is none.
+std::optional<ScanTable> TableOf(const DirectionGrid& grid, int num_settling = 0) {
   constexpr int kPasses = 3;
   ScanTable table;
   table.rows = grid.rows;
@@ -156,8 +172,13 @@ std::optional<ScanTable> TableOf(const DirectionGrid& grid) {
   table.row_azimuth_rad.assign(grid.rows, 0.0);
   FindElevations(grid, table);
   for (int pass = 0; pass < kPasses; ++pass) {
-    FindColumns(grid, table);
-    FindRowOffsets(grid, table);
+    FindColumns(grid, 0.0, table);
+    FindRowOffsets(grid, 0.0, table);
+  }
+  const double reach_rad = 0.5 * MedianStep(table.column_azimuth_rad);
+  for (int pass = 0; pass < num_settling && reach_rad > 0.0; ++pass) {
+    FindColumns(grid, reach_rad, table);
+    FindRowOffsets(grid, reach_rad, table);
   }
   table.column_step_rad = MedianStep(table.column_azimuth_rad);
   table.row_height_rad = Heights(table.elevation_rad);
@@ -217,7 +238,8 @@ std::optional<ScanTable> MakeScanTable(const Frame& frame,
     grid.azimuth_rad[place] = seen.azimuth_rad;
     grid.elevation_rad[place] = seen.elevation_rad;
   }
-  return TableOf(grid);
+  constexpr int kUntilSettled = 30;
+  return TableOf(grid, aside_rad.empty() ? 0 : kUntilSettled);
 }
 
 std::optional<ScanTable> MakeScanTable(const ScanPattern& pattern) {

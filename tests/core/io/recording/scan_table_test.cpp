@@ -71,6 +71,32 @@ TEST(ScanTable, FillsGapsBetweenWhatIsKnown) {
   EXPECT_NEAR(table->column_azimuth_rad[120], truth->column_azimuth_rad[120], 1e-6);
 }
 
+// As of a sensor in a room, whose upper rows meet the ceiling where the lower ones meet nothing.
+TEST(ScanTable, SettlesOffsetsOfRowsThatSeeOtherColumns) {
+  constexpr std::uint32_t kRows = 8;
+  constexpr std::uint32_t kColumns = 64;
+  const auto offset_rad = [](std::uint32_t row) { return row < kRows / 2 ? 0.0 : 0.003; };
+  Frame frame;
+  frame.Resize(kRows, kColumns, 1);
+  for (std::uint32_t row = 0; row < kRows; ++row) {
+    for (std::uint32_t column = 0; column < kColumns; ++column) {
+      const std::size_t slot = row * kColumns + column;
+      frame.range_m[slot] = column >= 4 * row && column < 4 * row + 32 ? 10.0F : std::nanf("");
+      const double azimuth_rad = -0.01 * column + offset_rad(row);
+      frame.x[slot] = static_cast<float>(10.0 * std::cos(azimuth_rad));
+      frame.y[slot] = static_cast<float>(10.0 * std::sin(azimuth_rad));
+      frame.z[slot] = 0.2F * static_cast<float>(row);
+    }
+  }
+  const std::vector<double> aside_rad(kRows, 0.0);
+  const auto table = MakeScanTable(frame, {}, aside_rad);
+  ASSERT_TRUE(table);
+  for (std::uint32_t row = 0; row < kRows; ++row) {
+    EXPECT_NEAR(table->row_azimuth_rad[row] - table->row_azimuth_rad[0], offset_rad(row), 1e-6)
+        << "float32 at 10 m is known to 5e-7 m";
+  }
+}
+
 TEST(ScanTable, KnowsWhoLooksIntoTheSameDirection) {
   // The rows of a Pandar64 differ in azimuth by up to 5.2 deg to either side.
   const ScanPattern pattern = BuildScanPattern(ReadSensor("pandar64"));
