@@ -108,6 +108,15 @@ const std::vector<RemarkType>& RemarkTypes() {
        "heights more than 5 m from the fitted gradients"},
       {kPlacesFar, "places-far", "point of a track more than 5 m from the fitted line",
        "points of tracks more than 5 m from the fitted lines"},
+      {kRangesDiffer, "ranges-differ",
+       "point whose range_m is not its distance from the origin: both are taken as stored",
+       "points whose range_m is not their distance from the origin: both are taken as stored"},
+      {kLabelsMissing, "labels-missing",
+       "frame without labels in a folder that has those of others",
+       "frames without labels in a folder that has those of others"},
+      {kClocksDiffer, "clocks-differ",
+       "frame more than a minute from every transform, as on another clock: without a pose",
+       "frames more than a minute from every transform, as on another clock: without poses"},
   };
   return types;
 }

@@ -59,6 +59,10 @@ enum class RemarkKind : std::uint8_t {
   kHeightsVoid,
   kHeightsFar,
   kPlacesFar,
+  // Recordings as a whole.
+  kRangesDiffer,
+  kLabelsMissing,
+  kClocksDiffer,
 };
 
 /// What is said of a kind of remark.

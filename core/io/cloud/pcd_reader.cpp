@@ -34,7 +34,11 @@ class HeaderReader {
     const std::size_t size = bytes.size();
     while (const auto line = TakeLine(rest_)) {
       const auto words = Words(*line);
-      if (words.empty() || words[0].starts_with('#')) continue;
+      if (words.empty()) continue;
+      if (words[0].starts_with('#')) {
+        CheckUnitComment(file_, *line);
+        continue;
+      }
       std::string key(words[0]);
       std::ranges::transform(key, key.begin(), UpperLetter);
       if (key == "COLUMNS") key = "FIELDS";

@@ -155,7 +155,11 @@ PlyHeader ReadPlyHeader(const std::string& file, std::string_view& rest) {
     const auto line = TakeLine(rest);
     if (!line) Fail(file, "is no PLY file: its header has no end_header line");
     const auto words = Words(*line);
-    if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
+    if (words.empty()) continue;
+    if (words[0] == "comment" || words[0] == "obj_info") {
+      CheckUnitComment(file, *line);
+      continue;
+    }
     if (words[0] == "end_header") break;
     if (words[0] == "format") {
       ReadFormat(file, words, header);

@@ -1,6 +1,7 @@
 #include "core/io/recording/recording_kinds.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include "core/io/cloud/las_reader.h"
 #include "core/io/recording/cloud_frame.h"
 #include "core/io/recording/line_reader.h"
+#include "core/io/recording/plausibility.h"
 #include "core/io/run/frame_record.h"
 #include "core/io/run/sequence_files.h"
 #include "railcast/io/cloud_files.h"
@@ -42,6 +44,7 @@ class CloudRecording : public Recording {
     info_.has_kitti_labels = !files_.empty() && IsKittiFile(files_.front());
     if (info_.has_kitti_labels) {
       info_.labels = SemanticKittiNamesOf(files_.front().parent_path());
+      RemarkMissingLabels();
     }
     if (!files_.empty() && IsLasFile(files_.front())) info_.labels = AsprsLabels();
   }
@@ -54,12 +57,30 @@ class CloudRecording : public Recording {
     const std::int64_t stamp_ns = stamps_ns_.empty() ? 0 : stamps_ns_[index];
     return [file = files_[index], index, stamp_ns, columns = columns_] {
       RecordedFrame recorded = ReadCloudFrame(file, static_cast<std::uint32_t>(index), columns);
+      RemarkOtherRanges(recorded);
       recorded.frame.stamp_ns = stamp_ns;
       return recorded;
     };
   }
 
  private:
+  /// Of folders that have labels for some of their frames only.
+  void RemarkMissingLabels() {
+    std::map<std::filesystem::path, std::vector<std::filesystem::path>> without;
+    std::map<std::filesystem::path, bool> has_any;
+    for (const std::filesystem::path& file : files_) {
+      const bool is_labelled = SecondFileOf(file).has_value();
+      if (!is_labelled) without[file.parent_path()].push_back(file);
+      has_any[file.parent_path()] |= is_labelled;
+    }
+    for (const auto& [folder, files] : without) {
+      if (!has_any[folder]) continue;
+      info_.remarks->Add({.kind = RemarkKind::kLabelsMissing,
+                          .place = ShownPath(files.front()),
+                          .number = files.size()});
+    }
+  }
+
   RecordingInfo info_;
   std::vector<std::filesystem::path> files_;
   std::vector<std::int64_t> stamps_ns_;  ///< Empty: not known.

@@ -152,6 +152,27 @@ std::string FaultOfIntensities(const Cloud& cloud) {
          ShortText(100.0 * (1.0 - share)) + " %): another type or byte order?";
 }
 
+void RemarkOtherRanges(RecordedFrame& recorded) {
+  constexpr float kMost_m = 1.0F;  // Beams leave nearer to the origin.
+  if (!recorded.origin_m.isZero()) return;
+  const Frame& frame = recorded.frame;
+  Remark remark{.kind = RemarkKind::kRangesDiffer, .place = recorded.name, .number = 0};
+  std::size_t num = 0;
+  for (std::size_t i = 0; i < frame.num_slots(); ++i) {
+    if (std::isnan(frame.x[i])) continue;
+    ++num;
+    const float distance_m = std::hypot(frame.x[i], frame.y[i], frame.z[i]);
+    if (std::abs(frame.range_m[i] - distance_m) <= kMost_m) continue;
+    if (remark.number == 0) {
+      remark.detail =
+          ShortText(double{frame.range_m[i]}) + " m at " + ShortText(double{distance_m}) + " m";
+    }
+    ++remark.number;
+  }
+  if (static_cast<double>(remark.number) <= kMostWrong * static_cast<double>(num)) return;
+  AddRemark(remark, recorded.remarks);
+}
+
 std::optional<Remark> CheckRanges(const RecordedFrame& recorded,
                                   const RecordingInfo& info,
                                   double range_max_m) {

@@ -36,4 +36,8 @@ void LeaveOutUnlikelyTimes(RecordedFrame& recorded);
                                                 const RecordingInfo& info,
                                                 double range_max_m);
 
+/// Tells if more than 1 % of the points have a stored range more than 1 m from their distance to
+/// the origin, as when points were moved behind the sensor.
+void RemarkOtherRanges(RecordedFrame& recorded);
+
 }  // namespace railcast

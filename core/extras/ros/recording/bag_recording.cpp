@@ -18,6 +18,7 @@
 #include "core/extras/ros/recording/packet_messages.h"
 #include "core/extras/ros/recording/tf_poses.h"
 #include "core/io/recording/cloud_frame.h"
+#include "core/io/recording/plausibility.h"
 #include "core/scenario/ouster_metadata.h"
 
 namespace railcast {
@@ -146,7 +147,16 @@ void FillPoses(const TfPoses& poses, RecordedFrame& recorded) {
   Frame& frame = recorded.frame;
   const auto begin = poses.At(frame.stamp_ns);
   const auto end = poses.At(frame.stamp_ns + frame.duration_ns);
-  if (!begin || !end) return;
+  if (!begin || !end) {
+    constexpr std::int64_t kOtherClock_ns = 60 * kNsPerS;
+    const std::int64_t beyond_ns = poses.Beyond_ns(frame.stamp_ns);
+    if (beyond_ns <= kOtherClock_ns) return;
+    AddRemark({.kind = RemarkKind::kClocksDiffer,
+               .place = recorded.name,
+               .detail = ShortText(double(beyond_ns) / kNsPerS) + " s from them"},
+              recorded.remarks);
+    return;
+  }
   constexpr std::uint32_t kStep_ns = 20'000'000;  // As frames of ours.
   std::vector<ScanPose> between;
   for (std::uint32_t time_ns = kStep_ns; time_ns < frame.duration_ns; time_ns += kStep_ns) {
@@ -172,6 +182,7 @@ RecordedFrame ReadCloudMessage(std::span<const std::byte> data,
   for (Remark& remark : message.cloud.remarks) remark.place = name;
   RecordedFrame recorded = MakeCloudFrame(message.cloud, name);
   FillStamp(message, recorded);
+  RemarkOtherRanges(recorded);
   if (message.header.frame_id == frame_id) FillPoses(poses, recorded);
   return recorded;
 }

@@ -138,4 +138,15 @@ std::optional<Transform> TfPoses::At(std::int64_t time_ns) const {
   return fixed_from_frame;
 }
 
+std::int64_t TfPoses::Beyond_ns(std::int64_t time_ns) const {
+  std::int64_t beyond_ns = 0;
+  for (const TfLink& link : links_) {
+    if (link.is_static || link.poses.empty()) continue;
+    const std::int64_t known_ns =
+        std::clamp(time_ns, link.poses.front().time_ns, link.poses.back().time_ns);
+    beyond_ns = std::max(beyond_ns, std::abs(time_ns - known_ns));
+  }
+  return beyond_ns;
+}
+
 }  // namespace railcast

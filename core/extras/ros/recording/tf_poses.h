@@ -28,6 +28,9 @@ class TfPoses {
   /// the topmost frame is neither called so (REP 105: map, odom, earth; or world) nor moved
   /// against.
   [[nodiscard]] std::optional<Transform> At(std::int64_t time_ns) const;
+  /// How long before the first or after the last of all transforms that move something a time is; 0
+  /// within them, and if there are none.
+  [[nodiscard]] std::int64_t Beyond_ns(std::int64_t time_ns) const;
 
  private:
   struct TimedPose {

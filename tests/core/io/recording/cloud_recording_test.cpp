@@ -53,6 +53,19 @@ std::string MessageOfText(const std::string& name, const std::string& text) {
   return MessageBehind(file.path().string() + ": ", [&] { (void)ReadAll(file.path()); });
 }
 
+// As when another program moves the points of a cloud and keeps its other fields.
+TEST(CloudRecording, TellsOfRangesThatAreNotThoseOfThePoints) {
+  const auto read = [](const std::string& range_m) {
+    return ReadText("a.pcd", AsciiPcd("x y z range_m", "4 4 4 4", "F F F F",
+                                      {"3 4 0 5.5", "6 8 0 " + range_m, "nan nan nan nan"}));
+  };
+  EXPECT_TRUE(read("9.5").remarks.empty()) << "beams need not leave at the origin";
+  const RecordedFrame recorded = read("30");
+  EXPECT_EQ(recorded.remarks,
+            (std::vector<Remark>{{RemarkKind::kRangesDiffer, recorded.name, 1, "30 m at 10 m"}}));
+  EXPECT_EQ(recorded.frame.range_m[1], 30.0F);
+}
+
 // As drivers for Velodyne make them: a row for each firing, a column for each laser.
 TEST(CloudRecording, TurnsAnOrganisedCloudWhoseColumnsAreRings) {
   std::string text =

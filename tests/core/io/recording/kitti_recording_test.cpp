@@ -51,6 +51,21 @@ TEST(KittiRecording, ReadsAllSequencesInTheirNaturalOrder) {
                                           "100/velodyne/000000.bin"));
 }
 
+// Sequences of test sets have none at all.
+TEST(KittiRecording, TellsOfFramesThatLackTheLabelsOfOthers) {
+  const TemporaryDirectory directory;
+  const fs::path sequences = directory.path() / "sequences";
+  for (const char* name : {"000000", "000001", "000002"}) WriteCloud(sequences / "00", name, 2, 30);
+  WriteCloud(sequences / "11", "000000", 2, 30);
+  fs::remove(sequences / "11/labels/000000.label");
+  EXPECT_TRUE(OpenRecording(directory.path())->info().remarks->List().empty());
+  fs::remove(sequences / "00/labels/000001.label");
+  fs::remove(sequences / "00/labels/000002.label");
+  EXPECT_EQ(OpenRecording(directory.path())->info().remarks->List(),
+            (std::vector<Remark>{
+                {RemarkKind::kLabelsMissing, (sequences / "00/velodyne/000001.bin").string(), 2}}));
+}
+
 TEST(KittiRecording, HasTheNamesOfTheConfigurationAboveItsClouds) {
   const TemporaryDirectory directory;
   const fs::path sequence = directory.path() / "sequences/00";

@@ -133,6 +133,25 @@ TEST(BagRecording, HasThePosesThatItsTransformsSay) {
   EXPECT_FALSE(frames[2].has_pose);
 }
 
+// Transforms of a simulated clock, clouds of the computer's.
+TEST(BagRecording, TellsOfCloudsWithAnotherClockThanTheTransforms) {
+  MadeBag bag;
+  bag.Link("/tf_static", "base_link", "lidar", 0, {{0.0, 0.0, 2.0}, {}});
+  for (int i = 0; i < 2; ++i)
+    bag.Link("/tf", "map", "base_link", i * kSecond_ns, {{1.0, 0, 0}, {}});
+  for (const std::int64_t time_s : {1, 61, 1'700'000'001})
+    bag.Add("/lidar/points", kSecond_ns, CloudOf(kBagPoints, time_s * kSecond_ns));
+  const auto recording = OpenRecording(bag.Closed());
+  const auto frames = ReadAll(*recording);
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_TRUE(frames[0].has_pose);
+  EXPECT_FALSE(frames[1].has_pose) << "at its end a bag may lack transforms, which is not told";
+  EXPECT_FALSE(frames[2].has_pose);
+  EXPECT_EQ(recording->info().remarks->List(),
+            (std::vector<Remark>{{RemarkKind::kClocksDiffer, bag.file().string() + ": message 2", 1,
+                                  "1.7e+09 s from them"}}));
+}
+
 TEST(BagRecording, RefusesTransformsThatGoInCirclesOrAreNone) {
   for (const auto& [parent, rotation, rule] :
        std::vector<std::tuple<std::string, ros::Quaternion, std::string>>{
