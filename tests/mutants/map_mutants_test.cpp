@@ -237,8 +237,8 @@ TEST(MapMutants, OfPbfAreNeverReadWrongWithoutAWord) {
   mutants.Try("a file behind another", "", mutants.good() + mutants.good());
   for (const std::size_t num : {1U, 3U, 4U, 5U, 100U})
     mutants.Try("zeros behind the end", NumberText(num), mutants.good() + std::string(num, '\0'));
-  for (const char* type : {"OSMData", "OSMHeader"})
-    mutants.Try("type of a block changed", type, Replaced(mutants.good(), type, "OSMExtra"));
+  for (const auto& [type, other] : {std::pair{"OSMData", "OSMMore"}, {"OSMHeader", "OSMExtras"}})
+    mutants.Try("type of a block changed", type, Replaced(mutants.good(), type, other));
   mutants.Try("a feature that is needed", "", Replaced(mutants.good(), "-V0.6", "-V0.7"));
   for (const std::int64_t node : {0, 6, 99, -1})
     mutants.Try("a reference to no node", NumberText(node),
@@ -247,9 +247,10 @@ TEST(MapMutants, OfPbfAreNeverReadWrongWithoutAWord) {
   mutants.Try("a node lost", "", FileOfGroups(DenseNodes(4) + way));
   mutants.Try("nodes doubled", "", FileOfGroups(DenseNodes(5) + DenseNodes(5) + way));
   mutants.Try("a way doubled", "", FileOfGroups(DenseNodes(5) + way + way));
-  for (const char* text : {"rail", "railway", "250"})
+  for (const std::string text : {"rail", "railway", "250"}) {
     mutants.Try("a word changed", text,
-                Replaced(mutants.good(), text, std::string(text).replace(0, 1, "X")));
+                Replaced(mutants.good(), BytesField(1, text), BytesField(1, "X" + text.substr(1))));
+  }
   mutants.TryHarmless("a granularity",
                       FileOfGroups(DenseNodes(5) + way + VarintField(17, Varint(100))));
   mutants.TryHarmless("a granularity",
