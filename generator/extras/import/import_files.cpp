@@ -36,6 +36,23 @@ std::string TextWithItems(const Json& json) {
   return IndentedText(json, "");
 }
 
+/// What beside a line is in no run of tracks; steps that follow each other for one reason are one.
+std::vector<LeftOut> UnusedStretches(const std::vector<UnusedStep>& steps) {
+  std::vector<LeftOut> stretches;
+  for (const UnusedStep& step : steps) {
+    const std::string what = step.kind + " track";
+    const bool goes_on = !stretches.empty() && stretches.back().what == what &&
+                         stretches.back().reason == step.reason &&
+                         step.s_m.begin_s_m <= stretches.back().end_s_m &&
+                         step.s_m.end_s_m >= stretches.back().begin_s_m;
+    if (!goes_on) stretches.push_back({what, step.s_m.begin_s_m, step.s_m.end_s_m, step.reason});
+    LeftOut& stretch = stretches.back();
+    stretch.begin_s_m = std::min(stretch.begin_s_m, step.s_m.begin_s_m);
+    stretch.end_s_m = std::max(stretch.end_s_m, step.s_m.end_s_m);
+  }
+  return stretches;
+}
+
 }  // namespace
 
 std::string AlignmentFileText(const ImportedLine& line, const MapProjection& projection) {
@@ -151,6 +168,7 @@ std::string LeftOutCsv(const LeftOutOfMap& left_out,
     add(line.track.name, {"line", 0.0, line.length_m, line.reason});
   for (std::size_t i = 0; i < lines.size(); ++i) {
     for (const LeftOut& thing : worlds[i].left_out) add(lines[i].name, thing);
+    for (const LeftOut& thing : UnusedStretches(worlds[i].beside.unused)) add(lines[i].name, thing);
   }
   return csv.str();
 }

@@ -96,8 +96,13 @@ class RunCutter {
     End(chain, first, points_m);
     for (std::size_t i = 0; i < reasons_.size(); ++i) {
       if (!reasons_[i]) continue;
-      beside_.unused.push_back(
-          {{ways_[chain.ways[i]], chain.nodes[i], chain.nodes[i + 1]}, reasons_[i]});
+      const std::size_t way = ways_[chain.ways[i]];
+      const double one_s_m = (places_m[i] ? places_m[i] : places_m[i + 1])->x();
+      const double other_s_m = (places_m[i + 1] ? places_m[i + 1] : places_m[i])->x();
+      beside_.unused.push_back({{way, chain.nodes[i], chain.nodes[i + 1]},
+                                reasons_[i],
+                                KindOf(TagOf(whole_.ways[way].tags, "service")),
+                                {std::min(one_s_m, other_s_m), std::max(one_s_m, other_s_m)}});
     }
   }
 

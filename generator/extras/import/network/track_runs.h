@@ -39,6 +39,8 @@ inline constexpr double kRunStrip_m = 60.0;
 struct UnusedStep {
   WayStep step;
   const char* reason{};
+  std::string kind{};   ///< As of a run.
+  ChainageRange s_m{};  ///< Of those of its ends that are beside the line.
 };
 
 /// What of a map's tracks runs beside a line, and what there does not.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/io/write_file.h"
+#include "generator/extras/import/import_files.h"
 #include "generator/extras/import/lines/line_places.h"
 #include "generator/extras/import/map/map_projection.h"
 #include "generator/extras/import/map/read_map.h"
@@ -119,6 +120,17 @@ TEST(MapAccount, SaysWhyATrackBesideALineIsNotMade) {
       ElementsAre(Pair("it does not run along the line", ::testing::DoubleNear(22.36, 0.01)),
                   Pair("it leaves the 60 m beside the line", ::testing::DoubleNear(36.06, 0.01)),
                   Pair("it runs along the line for less than 20 m", 10.0)));
+  ImportedLine line;
+  line.name = "a";
+  const std::string csv = LeftOutCsv({}, {line}, {map.world()});
+  const auto at = [&](int from_m, int to_m) {
+    const int from_s_m = map.runs_east() ? from_m : 2000 - to_m;
+    return "a,running track," + std::to_string(from_s_m) + "," +
+           std::to_string(from_s_m + to_m - from_m) + ",\"it ";
+  };
+  EXPECT_THAT(csv, HasSubstr(at(300, 310) + "runs along the line for less than 20 m\"\n"));
+  EXPECT_THAT(csv, HasSubstr(at(500, 510) + "does not run along the line\"\n"));
+  EXPECT_THAT(csv, HasSubstr(at(700, 700) + "leaves the 60 m beside the line\"\n"));
 }
 
 TEST(MapAccount, CountsWhatATrackThatCannotStandTakesWithIt) {
