@@ -84,8 +84,8 @@ inline void ApplyResponse(DetectTile& tile, const ResponseParameters& parameters
   return static_cast<std::uint32_t>(whole - (static_cast<float>(whole) > x ? 1 : 0));
 }
 
-/// A word for a cell of effect `texture`. Philox would cost more than all else of the effect;
-/// the steps are those of MurmurHash3's last mixing (Appleby), one for each number.
+/// A word for a cell of effect `texture`, cheaper than Philox: the steps of MurmurHash3's last
+/// mixing (Appleby), once for each number.
 [[nodiscard]] inline std::uint32_t HashOfCell(
     std::uint32_t seed, std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t instance) {
   std::uint32_t hash = seed;
