@@ -209,7 +209,7 @@ RunCertificate CertificateSums::Result(const LabelTable& labels) const {
                         .frames = num_frames_,
                         .firings = shares_.num_firings(),
                         .drawn = shares_.num_drawn()};
-  if (num_frames_ > 0) result.without_drawn = shares_.share_without_drawn();
+  if (shares_.num_firings() > 0) result.without_drawn = shares_.share_without_drawn();
   result.all = PartOf("all", [](const CertifiedEcho&) { return true; });
   std::set<std::uint32_t> ids;
   std::set<std::uint32_t> bins;

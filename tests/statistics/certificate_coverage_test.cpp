@@ -240,7 +240,8 @@ TEST(CertificateCoverage, IsShownOfFourScenesAndThreeSensors) {
 Of each case, thousands of firings of each of 17 frames, of all kinds as frequent as in the frame but for those that meet
 nothing, were made anew on rung `reference`, so that their numerical error is known. From them, certificates of about 300
 firings were drawn )"
-      << kNumDrawings << R"( times. The table has the share of these whose 95 % interval holds the true value: 93 to
+      << kNumDrawings
+      << R"( times. The table has the share of these whose 95 % interval holds the true value: 93 to
 97 % is what was asked for, and 1.1 % is the standard deviation of one figure. "Mean" is the mean of the drawn shares,
 which is the true one if there is no bias. "Parts" are the missed shares of all classes and ranges of which at least ten
 echoes were drawn. Intervals of the 95 % quantile have no upper end where too few echoes tell of it.

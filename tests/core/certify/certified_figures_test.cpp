@@ -93,6 +93,15 @@ TEST(CertificateSums, GiveNoFigureOfFewerThanTenEchoes) {
   EXPECT_FALSE(run.ranges[1].missed);
 }
 
+// As of things in a recording that no beam comes near.
+TEST(CertificateSums, KnowOfFramesWithoutFirings) {
+  CertificateSums sums({});
+  sums.Add({});
+  const RunCertificate run = sums.Result(LabelTable());
+  EXPECT_EQ(run.frames, 1U);
+  EXPECT_EQ(run.without_drawn, 0.0);
+}
+
 TEST(CertificateSums, TellWhatAnotherRungMissesOnTheSameFirings) {
   const RunCertificate run = OfOneFrame();
   ASSERT_EQ(run.rungs.size(), 1U);
