@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Prints the tables of docs/results/insertion.md, "Against reality", and draws docs/images/insertion_real.png. Needs
-# the test program generator_tests of a release build, the real captures that it reads, and gnuplot.
+# the test program generator_extras_tests of a release build, the real captures that it reads, and gnuplot.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 runs=$(mktemp -d)
 trap 'rm -rf "$runs"' EXIT
-build/release/tests/generator/generator_tests --gtest_filter='InsertAblation.*:InsertedThings.*:RealThings.*' | tee "$runs/log.txt"
+build/release/tests/generator/extras/generator_extras_tests --gtest_filter='InsertAblation.*:InsertedThings.*:RealThings.*' | tee "$runs/log.txt"
 if ! grep -q '^across: ' "$runs/log.txt"; then
   echo "draw_insertion.sh: the real captures are not there" >&2
   exit 1
