@@ -33,7 +33,7 @@ struct CertifiedFigure {
 ///
 ///     WeightedShares shares;
 ///     shares.AddFirings(stratum, 28'000, 0.001);
-///     const std::size_t firing = shares.AddDrawn(stratum);
+///     shares.AddDrawn(stratum);  // Firing 0.
 ///     const auto missed = shares.Share(num_missed, num_echoes);
 class WeightedShares {
  public:
