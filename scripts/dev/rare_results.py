@@ -19,27 +19,8 @@ PAGE = ROOT / "docs" / "results" / "rare.md"
 SCENARIOS = ROOT / "scenarios"
 Z = statistics.NormalDist().inv_cdf(0.975)
 
-# Thin rods that one ray either meets or not, and that fill a part of a beam only: `surface` sees them from farther away.
-WIRE = {
-    "study": {"version": 1, "recipe": "wire_recipe.json", "detection": {"points": 3, "frames": 2, "of_frames": 3},
-              "braking": {"reaction_s": 1, "deceleration_mps2": 5, "margin_m": 2},
-              "rare": {"cheap": "surface", "per_stage": 100}},
-    "recipe": {"version": 1, "seed": 5, "num_scenarios": 1000, "num_frames": 40, "bases": [{"file": "wire_base.json"}],
-               "objects": [{"name": "wire", "count": {"type": "choice", "values": [1]},
-                            "object": {"type": "box", "size_m": [0.02, 0.2, 3]},
-                            "draws": {"/size_m/1": {"type": "normal", "mean": 0.2, "sd": 0.06, "min": 0.04, "max": 0.4},
-                                      "/d_m": {"type": "uniform", "min": -1, "max": 1}},
-                            "ahead_m": {"type": "uniform", "min": 38, "max": 40}, "gauge": "foul"}]},
-    "base": {"version": 1, "fidelity": "footprint", "materials": f"{SCENARIOS}/materials/railway.json",
-             "labels": f"{SCENARIOS}/labels.json",
-             "lidar": {"file": f"{SCENARIOS}/sensors/vir2rail.json", "range_max_m": 120,
-                       "mount": {"position_m": [2.2, 0, 2.5]}, "receiver": {"range_at_10_percent_m": 13}},
-             "world": {"alignment": {"course": {"type": "elements", "elements": [{"type": "straight", "length_m": 1000}]}},
-                       "vegetation": {"trees_per_hectare": 0, "grass": False}},
-             "vehicle": {"start_s_m": 300, "may_overlap": True,
-                         "motion": {"profile": [{"time_s": 0, "speed_mps": 10}]}}}}
 # Margins in metres: the study's own first. Numbers of plain approaches.
-CASES = {"lying_worker": ((2, 8), 12000), "curve_wagon": ((8, 14), 6000), "wire": ((2,), 3000)}
+CASES = {"lying_worker": ((2, 8), 12000), "curve_wagon": ((8, 14), 6000)}
 
 
 def read(path):
@@ -48,8 +29,6 @@ def read(path):
 
 def parts_of(name):
     """The study and its recipe, which can be written to any folder."""
-    if name == "wire":
-        return WIRE["study"], WIRE["recipe"]
     study = read(SCENARIOS / "studies" / f"{name}.json")
     recipe = read(SCENARIOS / "studies" / study["recipe"])
     recipe["bases"] = [{"file": str((SCENARIOS / "studies" / base["file"]).resolve())} for base in recipe["bases"]]
@@ -114,7 +93,6 @@ def rows_of(build, folder, name):
 def main():
     build, folder = (pathlib.Path(argument).resolve() for argument in sys.argv[1:])
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "wire_base.json").write_text(json.dumps(WIRE["base"]))
     text, begin = PAGE.read_text(), "| study |"
     table = [text[text.index(begin):].splitlines()[0], "|" + "---|" * 10]
     for name in CASES:
