@@ -71,13 +71,13 @@ Estimate IntervalOf(double mean, double squared_error, double effective, std::ui
   if (mean <= 0.0) return NotEnough(num);
   const double relative = std::sqrt(squared_error) / mean;
   const double factor = std::exp(StudentQuantile(std::max(effective - 1.0, 1.0)) * relative);
-  return {mean, mean / factor, mean * factor, num};
+  return {std::min(mean, 1.0), std::min(mean / factor, 1.0), std::min(mean * factor, 1.0), num};
 }
 
-double UnknownShare(const WeightedTrials& trials) {
+double UnknownShare(const WeightedTrials& trials, double RareScores::*level) {
   double sum = 0.0;
   for (std::size_t i = 0; i < trials.weights.size(); ++i) {
-    if (std::isnan(trials.scores[i].cheap)) sum += trials.weights[i];
+    if (std::isnan(trials.scores[i].*level)) sum += trials.weights[i];
   }
   return sum / static_cast<double>(std::max<std::size_t>(trials.weights.size(), 1));
 }
@@ -127,12 +127,22 @@ std::string FaultOfSearch(const RareFigure& figure) {
   return "";
 }
 
+// Of the trials on the level that decides, which are not known.
+double UnknownShare(const RareEvidence& evidence) {
+  if (!evidence.pairs.weights.empty()) return UnknownShare(evidence.pairs, &RareScores::dear);
+  return 0.5 * (UnknownShare(evidence.cheap[0], &RareScores::cheap) +
+                UnknownShare(evidence.cheap[1], &RareScores::cheap));
+}
+
+std::string UnknownText(double unknown) {
+  return "too many trials say neither yes nor no: a share of " + NumberText(unknown) + " of all";
+}
+
 std::string RefusalOf(const RareFigure& figure, double mean, double unknown) {
   std::string fault = figure.is_plain ? "" : FaultOfSearch(figure);
   if (!fault.empty()) return fault;
   if (mean <= 0.0) return "the levels disagree by more than the probability";
-  if (unknown <= kMostUnknown * mean) return "";
-  return "too many trials say neither yes nor no: a share of " + NumberText(unknown) + " of all";
+  return unknown <= kMostUnknown * mean ? "" : UnknownText(unknown);
 }
 
 }  // namespace
@@ -141,7 +151,6 @@ RareFigure EstimateRareFigure(const RareEvidence& evidence) {
   RareFigure figure;
   std::vector<double> all_terms;
   double squared_error = 0.0;
-  double unknown = 0.0;
   for (std::size_t i = 0; i < 2; ++i) {
     const std::vector<double> terms = CheapTerms(evidence.cheap[i]);
     const RareLevel level = LevelOf(terms);
@@ -152,7 +161,6 @@ RareFigure EstimateRareFigure(const RareEvidence& evidence) {
     figure.cheap.mean += 0.5 * level.mean;
     figure.cheap.variance += 0.5 * level.variance;
     squared_error += 0.25 * level.variance / num;
-    unknown += 0.5 * UnknownShare(evidence.cheap[i]);
     for (const double term : terms) all_terms.push_back(0.5 * term / num);
   }
   if (!evidence.pairs.weights.empty()) {
@@ -166,6 +174,11 @@ RareFigure EstimateRareFigure(const RareEvidence& evidence) {
   const std::uint64_t num_dearest =
       evidence.pairs.weights.empty() ? figure.cheap.num : figure.correction.num;
   const std::uint64_t num_failed = NumFailed(evidence);
+  const double unknown = UnknownShare(evidence);
+  if (num_failed == 0 && unknown > 0.0) {
+    figure.refusal = UnknownText(unknown);
+    return figure;
+  }
   if (num_failed == 0) {
     figure.at_most = ExactPoissonRate(0, kDefensiveShare * static_cast<double>(num_dearest)).high;
     figure.refusal = "nothing failed";

@@ -40,7 +40,10 @@ class RareRunner {
       const auto middle = first.indices.begin() + static_cast<std::ptrdiff_t>(num_pilot);
       cheap_ = {Batch{{first.indices.begin(), middle}}, Batch{{middle, first.indices.end()}}};
     } else {
-      if (!Search(proposals_[0], first) || !Search(proposals_[1], {})) return std::nullopt;
+      const std::uint32_t quarter = settings_.most_trials / 4;
+      if (!Search(proposals_[0], first, quarter) || !Search(proposals_[1], {}, 2 * quarter)) {
+        return std::nullopt;
+      }
       run_.num_searching = static_cast<std::uint32_t>(run_.trials.size());
       for (std::size_t i = 0; i < 2; ++i) {
         if (!Try(proposals_[i], num_pilot, false, cheap_[i])) return std::nullopt;
@@ -72,12 +75,16 @@ class RareRunner {
 
   // Moves a proposal, which is p yet, to the failures. Returns false if it was stopped.
   // @param batch The first stage, if it was made.
-  bool Search(Proposal& proposal, Batch batch) {
+  // @param most_trials After which there is no further stage.
+  bool Search(Proposal& proposal, Batch batch, std::uint32_t most_trials) {
     constexpr std::size_t kMostStages = 12;
     constexpr double kEnoughFailures = 30.0;  // To fit modes to.
     std::vector<Proposal> stages;
     Batch all;
-    for (; stages.size() < kMostStages; batch = {}) {
+    const auto has_room = [&] {
+      return stages.empty() || run_.trials.size() + settings_.num_per_stage <= most_trials;
+    };
+    for (; stages.size() < kMostStages && has_room(); batch = {}) {
       if (batch.indices.empty() && !Try(proposal, settings_.num_per_stage, false, batch)) {
         return false;
       }
@@ -194,6 +201,13 @@ class RareRunner {
     Numbers more{more_of(figure.cheap, 1.0), 0};
     more.num_cheap += more.num_cheap % 2;
     if (settings_.has_pairs) more.num_pairs = more_of(figure.correction, pair_cost);
+    const std::uint64_t room = settings_.most_trials - num_trials;
+    const std::uint64_t wanted = std::uint64_t{more.num_cheap} + more.num_pairs;
+    if (wanted > room) {
+      more.num_cheap = static_cast<std::uint32_t>(more.num_cheap * room / wanted);
+      more.num_pairs = static_cast<std::uint32_t>(more.num_pairs * room / wanted);
+      more.num_cheap -= more.num_cheap % 2;
+    }
     if (more.num_cheap + more.num_pairs == 0) return std::nullopt;
     return more;
   }

@@ -84,7 +84,7 @@ using RareExperiment =
 
 struct RareSettings {
   std::uint64_t seed{};
-  std::uint32_t num_per_stage = 300;   ///< Trials of each stage of a search.
+  std::uint32_t num_per_stage = 300;   ///< Trials of each stage; an eighth of most_trials at most.
   double precision = 0.3;              ///< Half the interval, as a share of the probability.
   std::uint32_t most_trials = 20'000;  ///< After which no more are added.
   bool has_pairs{};                    ///< Whether there is a dear level.
@@ -101,13 +101,13 @@ struct RareRun {
 
 /// Estimates a small probability of failure by importance sampling over the factors.
 ///
-/// Where a twentieth of a first stage by p fails, that stage is part of the figure, and p draws all.
-/// Otherwise two searches, independent of each other, move a proposal to the failures on the cheap
-/// level in stages: each fits it to the tenth of the trials with the lowest scores, until that
-/// tenth fails (cross-entropy; Rubinstein and Kroese 2004). Trials by both proposals, and pairs by
-/// a third one that has been fitted to trials with scores near 0, give the figure. Their numbers go
-/// by sqrt(variance / cost) of a pilot (Giles 2015), until the interval has the width asked for.
-/// The result is a function of the arguments and scores alone.
+/// Where a twentieth of a first stage by p fails, that stage is part of the figure, and p draws
+/// all. Otherwise two searches, independent of each other, move a proposal to the failures on the
+/// cheap level in stages: each fits it to the tenth of the trials with the lowest scores, until
+/// that tenth fails (cross-entropy; Rubinstein and Kroese 2004). Trials by both proposals, and
+/// pairs by a third one that has been fitted to trials with scores near 0, give the figure. Their
+/// numbers go by sqrt(variance / cost) of a pilot (Giles 2015), until the interval has the width
+/// asked for. The result is a function of the arguments and scores alone.
 /// @return Nothing if the experiment was stopped.
 [[nodiscard]] std::optional<RareRun> RunRareEvent(const std::vector<RareFactor>& factors,
                                                   const RareSettings& settings,

@@ -148,7 +148,8 @@ Table LevelsTable(const RareStudy& study) {
               .title = "What the figure rests on",
               .note =
                   "Means and variances are of one approach, by its weight. Processor times are "
-                  "of the approaches that this run has made.",
+                  "of the approaches that this run has made, without scenery that other threads "
+                  "build ahead.",
               .columns = ColumnsOf("part: Part; rungs: Rungs; approaches: Approaches; mean [1]: "
                                    "Mean; variance [1]: Variance; approach_s: Time of each; "
                                    "processor_s: Time"),

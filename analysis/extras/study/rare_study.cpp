@@ -7,9 +7,11 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <string_view>
 #include <utility>
 
 #include "analysis/extras/rare/proposal.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/extras/recipe/recipe_values.h"
 #include "core/extras/recipe/scenario_turns.h"
@@ -42,7 +44,8 @@ class FactorList {
   [[nodiscard]] std::vector<RecipeFactor> Take() { return std::move(factors_); }
 
   void AddGroup(const DrawGroup& group) {
-    if (group.options.empty()) return;
+    // A seed is no factor, and what follows from it stays as drawn, too.
+    if (group.options.empty() || group.name.ends_with("seed")) return;
     ChoiceDraw choice;
     for (const GroupOption& option : group.options) {
       choice.values.values.emplace_back(option.name);
@@ -157,6 +160,13 @@ class RareMaker {
   std::optional<std::string> MakeLine(const RareTrial& trial, const ScenarioTurn& turn) {
     const double begin_s = ThreadSeconds();
     DrawnScenario drawn = drawer_.Draw(trial.index, QuantilesAt(study_.factors, trial.point));
+    AtPlace(PlaceOfScenario(drawer_.recipe(), trial.index), [&] {
+      CheckIsStudied(drawn.scenario);
+      if (const std::string_view rung = NameOf(drawn.scenario.fidelity); rung != study_.dear) {
+        throw InputError("/fidelity: must be the same in all scenarios with --rare (got " +
+                         Quoted(rung) + ", and " + Quoted(study_.dear) + " in the first)");
+      }
+    });
     std::optional<ApproachRecord> dear;
     if (trial.is_pair) {
       dear = make_approach_(drawn, turn.num_threads, turn.is_stopped);

@@ -47,6 +47,8 @@ void Describe(Archive& a, RareSpec& s) {
              Within(0.05, 1));
   a.Optional("most_approaches", s.most_approaches, "After which no more are added.",
              Within(1000, 1e7));
+  a.Ensure({"per_stage"}, s.per_stage <= s.most_approaches / 8,
+           "must be at most an eighth of most_approaches");
 }
 
 void Describe(Archive& a, StudySpec& s) {

@@ -102,21 +102,6 @@ std::vector<std::uint32_t> FramesOf(const Recipe& recipe) {
   return frames;
 }
 
-std::string PlaceOfScenario(const Recipe& recipe, std::uint32_t number) {
-  return ShownPath(recipe.file.lexically_normal()) + ": scenario " + std::to_string(number) + ": ";
-}
-
-// What the drawer does not check, since data sets may have it.
-void CheckIsStudied(const ScenarioSpec& scenario) {
-  if (scenario.fidelity == Fidelity::kAuto) {
-    throw InputError(
-        "/fidelity: must name a rung: a study says which model it used (got \"auto\")");
-  }
-  if (scenario.lidars.size() > 1) {
-    throw InputError("/lidars: must be one sensor: choose it by the recipe's /sensor");
-  }
-}
-
 // What is asked about must be in some scenario. Most often the first one has it all.
 void CheckAreThere(const StudySpec& study, const ScenarioDrawer& drawer) {
   std::vector<std::string> missing = study.objects;
@@ -173,6 +158,20 @@ ApproachMaker MakerBy(const StudySpec& study,
 }
 
 }  // namespace
+
+std::string PlaceOfScenario(const Recipe& recipe, std::uint32_t number) {
+  return ShownPath(recipe.file.lexically_normal()) + ": scenario " + std::to_string(number) + ": ";
+}
+
+void CheckIsStudied(const ScenarioSpec& scenario) {
+  if (scenario.fidelity == Fidelity::kAuto) {
+    throw InputError(
+        "/fidelity: must name a rung: a study says which model it used (got \"auto\")");
+  }
+  if (scenario.lidars.size() > 1) {
+    throw InputError("/lidars: must be one sensor: choose it by the recipe's /sensor");
+  }
+}
 
 ApproachMaker MakerOfApproaches(const StudySpec& study,
                                 const Recipe& recipe,

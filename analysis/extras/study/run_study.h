@@ -47,6 +47,13 @@ struct StudyResult {
 /// @throws InputError as ReadRecipe() does.
 [[nodiscard]] Recipe ReadStudyRecipe(const StudySpec& study);
 
+/// Where a scenario of a recipe is wrong: "recipe.json: scenario 7: ".
+[[nodiscard]] std::string PlaceOfScenario(const Recipe& recipe, std::uint32_t number);
+
+/// Checks what ScenarioDrawer does not, since data sets may have it.
+/// @throws InputError if the rung is `auto`, or if there are several sensors.
+void CheckIsStudied(const ScenarioSpec& scenario);
+
 /// Makes an approach of a study. Called by several threads at once.
 /// @return Nothing if it was stopped.
 /// @throws InputError that names the recipe and the number, as ScenarioDrawer and ApproachScanner

@@ -1,8 +1,10 @@
 #include "analysis/extras/rare/rare_event.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -179,6 +181,56 @@ TEST(RareEvent, BoundsWhatNeverFailed) {
   EXPECT_EQ(run->figure.refusal, "nothing failed");
   // Of the 200 trials that count, p has drawn a tenth; the exact two-sided bound of none is 3.69.
   EXPECT_NEAR(run->figure.at_most, 3.689 / 20.0, 1e-3);
+}
+
+/// Trials of which those before `num_failed` fail on the cheap level.
+WeightedTrials Trials(std::size_t num, std::size_t num_failed, double weight) {
+  WeightedTrials trials{.weights = std::vector<double>(num, weight),
+                        .scores = std::vector<RareScores>(num, RareScores{1.0})};
+  for (std::size_t i = 0; i < num_failed; ++i) trials.scores[i].cheap = -1.0;
+  return trials;
+}
+
+TEST(RareEvent, KnowsNoProbabilityAboveOne) {
+  const WeightedTrials trials = Trials(200, 199, 1.001);
+  const RareFigure figure = EstimateRareFigure({.cheap = {trials, trials}});
+  ASSERT_TRUE(figure.is_known()) << figure.refusal;
+  EXPECT_LE(figure.probability.high, 1.0);
+  EXPECT_GE(PlainTrialsFor(figure.probability), 0.0);
+}
+
+TEST(RareEvent, RefusesWhatIsNotKnownOnTheDearLevel) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  RareEvidence evidence{.cheap = {Trials(200, 100, 0.1), Trials(200, 100, 0.1)},
+                        .pairs = Trials(200, 100, 0.1)};
+  for (RareScores& scores : evidence.pairs.scores) scores.dear = scores.cheap;
+  EXPECT_TRUE(EstimateRareFigure(evidence).is_known());
+  for (std::size_t i = 0; i < 20; ++i) evidence.pairs.scores[i].dear = kUnknown;
+  EXPECT_THAT(EstimateRareFigure(evidence).refusal,
+              testing::StartsWith("too many trials say neither yes nor no"));
+  // What the cheap level does not know is of no matter where the dear one does.
+  for (RareScores& scores : evidence.pairs.scores) scores.dear = scores.cheap;
+  for (std::size_t i = 0; i < 20; ++i) evidence.cheap[0].scores[199 - i].cheap = kUnknown;
+  EXPECT_TRUE(EstimateRareFigure(evidence).is_known());
+}
+
+TEST(RareEvent, HasNoBoundWhereNothingIsKnown) {
+  WeightedTrials trials = Trials(200, 0, 1.0);
+  for (RareScores& scores : trials.scores) scores.cheap = std::nan("");
+  const RareFigure figure = EstimateRareFigure({.cheap = {trials, trials}});
+  EXPECT_THAT(figure.refusal, testing::StartsWith("too many trials say neither yes nor no"));
+  EXPECT_TRUE(std::isnan(figure.at_most));
+}
+
+TEST(RareEvent, MakesNoMoreTrialsThanAreAllowed) {
+  for (const bool has_pairs : {false, true}) {
+    const auto run = RunRareEvent(
+        std::vector<RareFactor>(10),
+        {.num_per_stage = 100, .precision = 0.01, .most_trials = 1000, .has_pairs = has_pairs},
+        ToyExperiment());
+    EXPECT_LE(run->trials.size(), 1000U);
+    EXPECT_GE(run->trials.size(), 990U);
+  }
 }
 
 TEST(RareEvent, EndsWhereTheExperimentIsStopped) {

@@ -1,12 +1,15 @@
 #include "analysis/extras/study/rare_study.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 
 #include "core/base/input_file.h"
 #include "tests/analysis/extras/study/study_project.h"
+#include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
 
 namespace railcast {
@@ -26,6 +29,7 @@ nlohmann::json RareRecipe() {
 
 class RareStudyTest : public testing::Test {
  protected:
+  static constexpr std::uint32_t kMostApproaches = 160;
   [[nodiscard]] std::filesystem::path Path(const std::string& name) const {
     return directory_.path() / name;
   }
@@ -37,7 +41,7 @@ class RareStudyTest : public testing::Test {
                                                     const StudyChoices& choices,
                                                     const StudyHooks& hooks = NoStudyHooks()) {
     StudySpec study = ReadStudy(file);
-    study.rare = RareSpec{.cheap = "geometry", .per_stage = 20, .most_approaches = 100};
+    study.rare = RareSpec{.cheap = "geometry", .per_stage = 20, .most_approaches = kMostApproaches};
     const Recipe recipe = ReadStudyRecipe(study);
     return RunRareStudy(study, ScenarioDrawer(recipe), choices, hooks);
   }
@@ -80,6 +84,7 @@ TEST_F(RareStudyTest, GivesTheSameLinesOnAnyNumberOfThreadsAndAfterAStop) {
   EXPECT_EQ(whole->cheap, "geometry");
   EXPECT_EQ(whole->dear, "surface");
   EXPECT_EQ(whole->approaches.size(), whole->run.trials.size());
+  EXPECT_LE(whole->approaches.size(), kMostApproaches);
   EXPECT_EQ(whole->num_made, whole->approaches.size());
   EXPECT_GT(whole->run.figure.correction.num, 0U);
   ASSERT_TRUE(Run(file, {.directory = Path("three"), .num_threads = 3}));
@@ -91,6 +96,19 @@ TEST_F(RareStudyTest, GivesTheSameLinesOnAnyNumberOfThreadsAndAfterAStop) {
   ASSERT_TRUE(rest);
   EXPECT_LT(rest->num_made, whole->num_made);
   EXPECT_EQ(Lines("begun"), Lines("one"));
+}
+
+TEST_F(RareStudyTest, RefusesRecipesOfSeveralRungs) {
+  const auto message_of = [&](const std::string& folder, const nlohmann::json& rungs) {
+    nlohmann::json recipe = RareRecipe();
+    std::filesystem::create_directories(Path(folder));
+    recipe["draws"]["/fidelity"] = {{"type", "choice"}, {"values", rungs}};
+    const auto file = WriteStudy(Path(folder), recipe);
+    return MessageOf([&] { (void)Run(file, {.directory = Path(folder + "_out")}); });
+  };
+  EXPECT_THAT(message_of("two", {"surface", "footprint"}),
+              testing::HasSubstr("/fidelity: must be the same in all scenarios with --rare"));
+  EXPECT_THAT(message_of("auto", {"auto"}), testing::HasSubstr("/fidelity: must name a rung"));
 }
 
 TEST_F(RareStudyTest, IsNoPlainStudy) {
