@@ -193,9 +193,6 @@ Section FigureSection(const RareStudy& study) {
       "The probability that something in the way is not detected in time in an approach that the "
       "recipe draws, by importance sampling over what it draws, on the rung " +
       study.dear + "."};
-  if (!figure.is_known()) {
-    section.paragraphs.push_back("There is no figure: " + figure.refusal + ".");
-  }
   section.tables = {
       {.key = "rare",
        .title = "Probability",
@@ -207,7 +204,14 @@ Section FigureSection(const RareStudy& study) {
                  figure.by_proposal[0], figure.by_proposal[1]}},
        .is_open = true},
       LevelsTable(study)};
-  if (figure.is_known()) section.tables.push_back(CostTable(study));
+  if (figure.is_known()) {
+    section.tables.push_back(CostTable(study));
+  } else {
+    section.paragraphs.push_back("There is no figure: " + figure.refusal + ".");
+    // Paragraphs are not in JSON.
+    section.tables[0].columns.push_back({.key = "refusal", .title = "No figure, since"});
+    section.tables[0].rows[0].emplace_back(figure.refusal);
+  }
   return section;
 }
 
