@@ -98,7 +98,9 @@ TEST(WeightedShares, HaveNoUpperEndOfAQuantileThatTooFewTellOf) {
     // 80 with 1.7 %.
     const auto figure = shares.Quantile(values, 0.95);
     EXPECT_EQ(figure->high.has_value(), num == 80);
-    if (figure->high) EXPECT_EQ(*figure->high, 79.0);
+    if (figure->high) {
+      EXPECT_EQ(*figure->high, 79.0);
+    }
   }
 }
 
