@@ -39,7 +39,7 @@ FactorsOfCells FactorsOfSheet(double distance_m,
                               const Vector3& sheet_mps,
                               std::uint32_t frame_index) {
   const auto world = WorldWithWallAt(distance_m, sheet_mps);
-  const ScanPattern pattern = MakeRaster(6, 4, 0.03);
+  const ScanPattern pattern = MakeRaster(6, 4, 0.04);
   const Frame even = ScanTextured(world, pattern, 0.0, frame_index);
   const Frame frame = ScanTextured(world, pattern, kTexture, frame_index);
   FactorsOfCells factors;
