@@ -55,15 +55,19 @@ std::string MessageOfText(const std::string& name, const std::string& text) {
 
 // As when another program moves the points of a cloud and keeps its other fields.
 TEST(CloudRecording, TellsOfRangesThatAreNotThoseOfThePoints) {
-  const auto read = [](const std::string& range_m) {
-    return ReadText("a.pcd", AsciiPcd("x y z range_m", "4 4 4 4", "F F F F",
-                                      {"3 4 0 5.5", "6 8 0 " + range_m, "nan nan nan nan"}));
+  const auto remarks_at = [](const std::string& range_m) {
+    const WrittenFile file("a.pcd", AsciiPcd("x y z range_m", "4 4 4 4", "F F F F",
+                                             {"3 4 0 5.5", "6 8 0 " + range_m, "nan nan nan nan"}));
+    const auto recording = OpenRecording(file.path());
+    EXPECT_EQ(ReadAll(*recording).at(0).frame.range_m[1], std::stof(range_m));
+    return recording->info().remarks->List();
   };
-  EXPECT_TRUE(read("9.5").remarks.empty()) << "beams need not leave at the origin";
-  const RecordedFrame recorded = read("30");
-  EXPECT_EQ(recorded.remarks,
-            (std::vector<Remark>{{RemarkKind::kRangesDiffer, recorded.name, 1, "30 m at 10 m"}}));
-  EXPECT_EQ(recorded.frame.range_m[1], 30.0F);
+  EXPECT_TRUE(remarks_at("9.5").empty()) << "beams need not leave at the origin";
+  const std::vector<Remark> remarks = remarks_at("30");
+  ASSERT_EQ(remarks.size(), 1U);
+  EXPECT_EQ(remarks[0].kind, RemarkKind::kRangesDiffer);
+  EXPECT_EQ(remarks[0].number, 1U);
+  EXPECT_EQ(remarks[0].detail, "30 m at 10 m");
 }
 
 // As drivers for Velodyne make them: a row for each firing, a column for each laser.
