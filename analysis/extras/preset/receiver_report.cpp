@@ -14,7 +14,8 @@ Section MakeReceiverSection(const ReceiverFigures& figures) {
       "receiver",
       "Surfaces and receiver",
       "Intensities by their logarithm, on smooth surfaces, from 0.05 to 1; intervals by sectors of "
-      "10 deg. *Robust* is the usual surface; markings and edges add to what is *by squares*.",
+      "10 deg. The robust figure is that of the usual surface; markings and edges add to the "
+      "other.",
       ColumnsOf("figure: Figure; unit: Unit; value: Robust; rms: By squares"),
       {},
       true};
