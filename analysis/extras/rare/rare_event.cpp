@@ -54,7 +54,14 @@ class RareRunner {
       if (!Try(pair_proposal_, num_pilot, true, pairs_)) return std::nullopt;
     }
     run_.figure = EstimateRareFigure(Evidence());
-    while (const auto more = MoreTrials()) {
+    while (auto more = MoreTrials()) {
+      if (PlainIsCheaper()) {
+        // Anew, so that what decided this is no part of the figure.
+        proposals_.fill({.factors = factors_});
+        cheap_ = {};
+        run_.num_searching = static_cast<std::uint32_t>(run_.trials.size());
+        more->num_cheap = 2 * num_pilot;
+      }
       for (std::size_t i = 0; i < 2; ++i) {
         if (!Try(proposals_[i], more->num_cheap / 2, false, cheap_[i])) return std::nullopt;
       }
@@ -170,11 +177,32 @@ class RareRunner {
     return {{TrialsOf(cheap_[0]), TrialsOf(cheap_[1])}, TrialsOf(pairs_)};
   }
 
-  // How many more are needed; nothing if there are enough, or if more would not help.
-  [[nodiscard]] std::optional<Numbers> MoreTrials() const {
+  // How many trials of a level are needed, of which so many reach the wanted error.
+  [[nodiscard]] double WantedOf(const RareLevel& level, double for_error) const {
     constexpr double kWantedEffective = 120.0;
     constexpr double kWantedLargest = 0.04;  // Share of one trial.
-    constexpr double kMostGrowth = 4.0;      // A pilot may err.
+    const RareFigure& figure = run_.figure;
+    if (figure.is_plain) return for_error;
+    const auto num = static_cast<double>(level.num);
+    return std::max({for_error, num * kWantedEffective / std::max(figure.effective, 1.0),
+                     num * figure.largest_share / kWantedLargest});
+  }
+
+  // Whether trials by p are fewer than what the figure still lacks: where what is no factor
+  // decides, no proposal helps.
+  [[nodiscard]] bool PlainIsCheaper() const {
+    const RareLevel& level = run_.figure.cheap;
+    const bool has_room = run_.trials.size() + settings_.num_per_stage <= settings_.most_trials;
+    if (settings_.has_pairs || run_.figure.is_plain || !has_room) return false;
+    const double error = settings_.precision * level.mean / NormalQuantile();
+    const double lacking =
+        WantedOf(level, level.variance / (error * error)) - static_cast<double>(level.num);
+    return level.mean * (1.0 - level.mean) / (error * error) < lacking;
+  }
+
+  // How many more are needed; nothing if there are enough, or if more would not help.
+  [[nodiscard]] std::optional<Numbers> MoreTrials() const {
+    constexpr double kMostGrowth = 4.0;  // A pilot may err.
     constexpr double kEnough = 1.0 / 1.05;
     const RareFigure& figure = run_.figure;
     const double mean = figure.cheap.mean + figure.correction.mean;
@@ -188,11 +216,8 @@ class RareRunner {
         std::sqrt(figure.cheap.variance) + std::sqrt(figure.correction.variance * pair_cost);
     const auto more_of = [&](const RareLevel& level, double cost) {
       const auto num = static_cast<double>(level.num);
-      double wanted = std::sqrt(level.variance / std::max(cost, 1.0)) * sum / (error * error);
-      if (!figure.is_plain) {
-        wanted = std::max({wanted, num * kWantedEffective / std::max(figure.effective, 1.0),
-                           num * figure.largest_share / kWantedLargest});
-      }
+      const double wanted =
+          WantedOf(level, std::sqrt(level.variance / std::max(cost, 1.0)) * sum / (error * error));
       if (kEnough * wanted <= num) return 0U;
       const double most = std::min((kMostGrowth - 1.0) * num,
                                    static_cast<double>(settings_.most_trials - num_trials));

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/base/random.h"
+
 namespace railcast {
 namespace {
 
@@ -151,6 +153,27 @@ TEST(RareEvent, CostsNoMoreThanPlainTrialsWhereFailuresAreFrequent) {
   EXPECT_EQ(coverage.num_known, kNumEstimates);
   EXPECT_GE(coverage.num_covering, 0.93 * coverage.num_known);
   EXPECT_LE(coverage.trials, 1.05 * coverage.plain_trials);
+}
+
+TEST(RareEvent, CostsLittleMoreThanPlainTrialsWhereNoFactorDecides) {
+  // What fails has nothing to do with the factors.
+  const RareExperiment experiment = [](const std::vector<RareTrial>& trials) {
+    std::vector<RareScores> scores;
+    for (const RareTrial& trial : trials) {
+      const double unit = UnitFloat(RandomWords(7, RandomUse::kNoise, 0, trial.index)[0]);
+      scores.push_back({unit - 0.02});
+    }
+    return std::optional(scores);
+  };
+  for (std::uint64_t seed = 1; seed < 6; ++seed) {
+    const auto run = RunRareEvent(std::vector<RareFactor>(2),
+                                  {.seed = seed * 1'000'003, .num_per_stage = 100}, experiment);
+    const Estimate& probability = run->figure.probability;
+    ASSERT_TRUE(run->figure.is_known()) << run->figure.refusal;
+    EXPECT_LT(probability.low, 0.02);
+    EXPECT_GT(probability.high, 0.02);
+    EXPECT_LE(static_cast<double>(run->trials.size()), 3.0 * PlainTrialsFor(probability));
+  }
 }
 
 TEST(RareEvent, RefusesWhereTheCheapLevelIsBlind) {

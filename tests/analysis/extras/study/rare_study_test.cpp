@@ -29,7 +29,7 @@ nlohmann::json RareRecipe() {
 
 class RareStudyTest : public testing::Test {
  protected:
-  static constexpr std::uint32_t kMostApproaches = 160;
+  static constexpr std::uint32_t kMostApproaches = 80;
   [[nodiscard]] std::filesystem::path Path(const std::string& name) const {
     return directory_.path() / name;
   }
@@ -41,7 +41,7 @@ class RareStudyTest : public testing::Test {
                                                     const StudyChoices& choices,
                                                     const StudyHooks& hooks = NoStudyHooks()) {
     StudySpec study = ReadStudy(file);
-    study.rare = RareSpec{.cheap = "geometry", .per_stage = 20, .most_approaches = kMostApproaches};
+    study.rare = RareSpec{.cheap = "geometry", .per_stage = 10, .most_approaches = kMostApproaches};
     const Recipe recipe = ReadStudyRecipe(study);
     return RunRareStudy(study, ScenarioDrawer(recipe), choices, hooks);
   }
