@@ -12,7 +12,7 @@ late: the late frames of the most expensive runs, received on the same cores: VL
 the published scan, at 10 and 20 Hz. For two cores: taskset -c 0,1 measure_live.py BUILD_DIR late.
 fast: the published scan at 10 Hz from a train at 160 km/h, on an open line, through hills and through
 a station: what a frame takes, and how long the longest one, which waits for the world if any does.
-certified: the published scan at 10 Hz in bursts, three times in turn without and with --certify 1%: a
+certified: the published scan at 10 Hz, three times in turn without and with --certify 1%: a
 frame's latency, from its last firing to its last datagram, what certificates take, and how many frames
 have none for want of time. Only if it is named.
 """
@@ -172,7 +172,7 @@ def certified(bench, seconds):
         for certify in ("off", "1%") * 3:
             summary = bench.folder / "summary.json"
             sent, received = bench.stream_and_receive(
-                scenario, seconds, "--fidelity", RUNGS[rung][0], "--pacing", "burst", "--clock", "utc",
+                scenario, seconds, "--fidelity", RUNGS[rung][0], "--pacing", "spread", "--clock", "utc",
                 "--certify", certify, "--summary", summary)
             latency = re.search("latency since the last firing: (.*)", received).group(1)
             sensor = json.loads(summary.read_text(encoding="utf-8"))["sensors"][0]
