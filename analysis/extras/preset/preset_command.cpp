@@ -47,7 +47,9 @@ int RunPreset(const PresetOptions& options, const std::string& command_line) {
     report = MakePresetReport(comparison, info, scenario, command_line);
   }
   constexpr std::size_t kMostTurns = 12;
-  const std::vector<RecordedFrame> turns = WholeTurns(*OpenRecording(source), kMostTurns);
+  // A comparison has read the recording to its end.
+  const std::vector<RecordedFrame> turns =
+      WholeTurns(options.scenario.empty() ? *recording : *OpenRecording(source), kMostTurns);
   if (turns.empty()) throw InputError(name + ": must hold a whole turn as a grid (got none)");
   report.sections.push_back(MakeReceiverSection(FindReceiverFigures(turns)));
   AddProvenance({info}, ProgramVersion(), report);
