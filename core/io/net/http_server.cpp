@@ -3,6 +3,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ip/v6_only.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http.hpp>
@@ -23,6 +24,8 @@ namespace beast = boost::beast;
 namespace http = boost::beast::http;
 using boost::system::error_code;
 using Tcp = asio::ip::tcp;
+
+constexpr std::chrono::milliseconds kPauseAfterError{100};
 
 class HttpConnection;
 /// The one that has waited for longest is first.
@@ -104,16 +107,24 @@ struct HttpServer::Parts {
   OpenConnections open;
   asio::io_context context{1};
   Tcp::acceptor acceptor{context};
+  asio::steady_timer pause{context};
   std::thread thread;
 
   void Accept() {
     acceptor.async_accept([this](const error_code& error, Tcp::socket socket) {
       if (error == asio::error::operation_aborted) return;
-      if (!error) {
-        if (open.size() >= kMaxConnections) open.front()->Close();
-        std::make_shared<HttpConnection>(std::move(socket), answer, open)->Read();
-      }
+      if (error) return AcceptLater();
+      if (open.size() >= kMaxConnections) open.front()->Close();
+      std::make_shared<HttpConnection>(std::move(socket), answer, open)->Read();
       Accept();
+    });
+  }
+  /// Where the process has no descriptor left, the connection still waits: another try at once
+  /// would fail, too, and keep a core busy.
+  void AcceptLater() {
+    pause.expires_after(kPauseAfterError);
+    pause.async_wait([this](const error_code& error) {
+      if (!error) Accept();
     });
   }
 };

@@ -1,8 +1,15 @@
 #include "core/io/net/http_server.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <ctime>
 #include <string>
+#include <thread>
 
 #include "tests/core/io/message_of.h"
 #include "tests/support/loopback.h"
@@ -86,6 +93,34 @@ for i in range(3):
     print(client.getresponse().read().decode())
 print(idle[0].recv(1)))"),
             "GET /0 \nGET /1 \nGET /2 \nb''\n");
+}
+
+// The client is another process, so that the server's alone lacks descriptors.
+TEST(HttpServer, WaitsIdlyWhileThereIsNoDescriptorLeft) {
+  const HttpServer server(kAnyLoopbackPort, Echo);
+  const std::string url = "http://127.0.0.1:" + std::to_string(server.at().port) + "/late";
+  rlimit limit{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &limit), 0);
+  FILE* const client = ::popen(("python3 -c 'import urllib.request as web\n"
+                                "print(web.urlopen(\"" +
+                                url + "\", timeout=20).read().decode())' 2>&1")
+                                   .c_str(),
+                               "r");
+  const int next = ::dup(STDIN_FILENO);
+  ::close(next);
+  const rlimit none_left{.rlim_cur = static_cast<rlim_t>(next), .rlim_max = limit.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none_left), 0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(800));  // Python connects meanwhile.
+  const std::clock_t before = std::clock();
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const double busy_s = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &limit), 0);
+  std::array<char, 64> said{};
+  EXPECT_NE(std::fgets(said.data(), said.size(), client), nullptr);
+  ::pclose(client);
+  EXPECT_STREQ(said.data(), "GET /late \n");
+  // A server that tries without a pause is busy all the time.
+  EXPECT_LT(busy_s, 0.15);
 }
 
 TEST(HttpServer, AnswersByIpv6) {
