@@ -231,11 +231,14 @@ class PositionWriter {
 };
 
 /// The weights of a node's morph targets; none if they move nothing.
-std::vector<double> WeightsOf(const json& node, const json& mesh) {
+std::vector<double> WeightsOf(const json& node, const json& mesh, const std::string& shown) {
   const json& own = ValueIn(node, "weights");
   std::vector<double> weights;
-  for (const json& weight : own.is_null() ? ValueIn(mesh, "weights") : own)
-    weights.push_back(weight.is_number() ? weight.get<double>() : 0.0);
+  for (const json& weight : own.is_null() ? ValueIn(mesh, "weights") : own) {
+    if (!weight.is_number())
+      throw InputError(shown + ": weights: must be numbers (got " + ShownText(weight.dump()) + ")");
+    weights.push_back(weight.get<double>());
+  }
   const bool is_any = std::ranges::any_of(weights, [](double weight) { return weight != 0.0; });
   return is_any ? weights : std::vector<double>();
 }
@@ -269,7 +272,7 @@ void MakePositionsFloats(SceneSource& source, const std::string& shown) {
   const json meshes = ValueIn(gltf, "meshes");
   const auto is_moved = [&](const json& node) {
     const json& mesh = ValueIn(meshes, ValueIn(node, "mesh"));
-    return HasWholePositions(gltf, mesh) || !WeightsOf(node, mesh).empty();
+    return HasWholePositions(gltf, mesh) || !WeightsOf(node, mesh, shown).empty();
   };
   for (const char* list : {"meshes", "nodes", "accessors", "bufferViews", "buffers"}) {
     if (!ValueIn(gltf, list).is_array()) return;
@@ -283,7 +286,7 @@ void MakePositionsFloats(SceneSource& source, const std::string& shown) {
     const json& index = ValueIn(node, "mesh");
     const json& mesh = ValueIn(meshes, index);
     if (!mesh.is_object() || !ValueIn(mesh, "primitives").is_array()) continue;
-    const std::vector<double> weights = WeightsOf(node, mesh);
+    const std::vector<double> weights = WeightsOf(node, mesh, shown);
     auto& poses = posed[index.get<std::size_t>()];
     const bool is_first = poses.empty();
     const std::size_t next = is_first ? index.get<std::size_t>() : gltf["meshes"].size();

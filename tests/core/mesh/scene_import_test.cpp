@@ -407,6 +407,7 @@ TEST_F(SceneImport, MovesVerticesOfGltfByTheWeightsOfTheNodeOrElseOfTheMesh) {
         [&] { (void)ParseMesh(MorphedGltf("[{\"mesh\": 0}, {}]", weights), "a.glb"); });
   };
   EXPECT_EQ(message("[1]"), "a.glb: weights: must be one for each morph target (got 1 for 2)");
+  EXPECT_EQ(message("[1, \"0\"]"), "a.glb: weights: must be numbers (got \"0\")");
 }
 
 TEST_F(SceneImport, RefusesPositionsOfGltfThatAreNoFloatsUnlessTheFileSaysSo) {
