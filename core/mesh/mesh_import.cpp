@@ -13,6 +13,7 @@
 #include "core/base/shipped_files.h"
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
+#include "core/base/unit_comment.h"
 #include "core/mesh/gltf_buffers.h"
 #include "core/mesh/mesh_format.h"
 #include "core/mesh/mesh_readers.h"
@@ -114,6 +115,21 @@ PolygonSoup ReadSceneIn(MeshSource source,
   return std::move(scene.soup);
 }
 
+/// The unit that a comment at the head of an OBJ or PLY file names.
+std::optional<double> UnitInHead_m(std::string_view bytes, MeshFormat format) {
+  const bool is_ply = format == MeshFormat::kPly;
+  if (!is_ply && format != MeshFormat::kObj) return std::nullopt;
+  while (const auto line = TakeLine(bytes)) {
+    const auto words = Words(*line);
+    if (words.empty()) continue;
+    const bool is_comment =
+        is_ply ? words[0] == "comment" || words[0] == "obj_info" : words[0].starts_with('#');
+    if (!is_comment && (!is_ply || words[0] == "end_header")) break;
+    if (const auto unit_m = is_comment ? UnitOfComment_m(*line) : std::nullopt) return unit_m;
+  }
+  return std::nullopt;
+}
+
 PolygonSoup ReadSoup(MeshSource source,
                      MeshFormat format,
                      const std::string& shown,
@@ -147,6 +163,7 @@ ImportedMesh ParseSource(MeshSource source, const MeshUnits& given) {
   const std::optional<MeshFormat> format = MeshFormatOf(source.bytes, source.file);
   if (!format) throw InputError(shown + ": " + UnknownFormatText(source.bytes, source.file));
   MeshUnits units = given;
+  if (!units.unit_m) units.unit_m = UnitInHead_m(source.bytes, *format);
   const PolygonSoup soup = ReadSoup(std::move(source), *format, shown, units);
   const double unit_m = units.unit_m.value_or(1.0);
   const bool is_single =

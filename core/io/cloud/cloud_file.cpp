@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
+#include "core/base/unit_comment.h"
 #include "core/io/cloud/las_reader.h"
 #include "core/io/cloud/pcd_encoder.h"
 #include "core/io/write_file.h"
@@ -150,26 +151,8 @@ CloudFile ParseCloudFile(const std::filesystem::path& file,
 }
 
 void CheckUnitComment(const std::string& file, std::string_view comment) {
-  constexpr auto kBetween =
-      std::to_array<std::string_view>({"of", "length", "lengths", "is", "are", "in", "all", "x",
-                                       "y", "z", "xyz", "positions", "coordinates", "distances"});
-  constexpr auto kOthers = std::to_array<std::string_view>(
-      {"mm",   "millimetre", "millimetres", "millimeter", "millimeters",
-       "cm",   "centimetre", "centimetres", "centimeter", "centimeters",
-       "km",   "kilometre",  "kilometres",  "kilometer",  "kilometers",
-       "inch", "inches",     "ft",          "foot",       "feet"});
-  std::string letters = LowerCase(comment);
-  std::ranges::replace_if(
-      letters, [](char c) { return c < 'a' || c > 'z'; }, ' ');
-  const auto words = Words(letters);
-  for (auto unit = words.begin(); unit != words.end(); ++unit) {
-    if (*unit != "unit" && *unit != "units") continue;
-    const auto said = std::find_if(unit + 1, words.end(), [&](std::string_view word) {
-      return std::ranges::find(kBetween, word) == kBetween.end();
-    });
-    if (said == words.end() || std::ranges::find(kOthers, *said) == kOthers.end()) continue;
-    throw InputError(file + ": positions must be in metres, but a comment says " + Quoted(comment));
-  }
+  if (!UnitOfComment_m(comment)) return;
+  throw InputError(file + ": positions must be in metres, but a comment says " + Quoted(comment));
 }
 
 Cloud ReadCloud(const std::filesystem::path& file, const std::string& columns) {

@@ -96,6 +96,24 @@ TEST(ParseMesh, TakesUnitAndUpAxisFromAFileThatHasThem) {
       bounds(given).isApprox(Eigen::AlignedBox3d(Vector3(0, 0, 0), Vector3(1, 1, 0)), 1e-6));
 }
 
+TEST(ParseMesh, TakesTheUnitThatACommentAtTheHeadNames) {
+  const std::string triangle = "v 0 0 0\nv 2000 0 0\nv 0 2000 0\nf 1 2 3\n";
+  const auto width_m = [](const std::string& text, const MeshUnits& units = {}) {
+    return Bounds(Merged(ParseMesh(text, "a.obj", units))).sizes().x();
+  };
+  EXPECT_NEAR(width_m("# Rhino\n\n# File units = millimeters\n" + triangle), 2.0, 1e-6);
+  EXPECT_NEAR(width_m("# units: inches\n" + triangle), 50.8, 1e-5);
+  EXPECT_NEAR(width_m("# File units = meters\n" + triangle), 2000.0, 1e-3);
+  // What is given comes first, and comments between shapes may be of anything.
+  EXPECT_NEAR(width_m("# units: mm\n" + triangle, {.unit_m = 0.5, .y_up = {}}), 1000.0, 1e-3);
+  EXPECT_NEAR(width_m(triangle + "# units: mm\n"), 2000.0, 1e-3);
+  EXPECT_NEAR(width_m("ply\nformat ascii 1.0\ncomment Units: mm\nelement vertex 3\n"
+                      "property float x\nproperty float y\nproperty float z\nelement face 1\n"
+                      "property list uchar int vertex_indices\nend_header\n"
+                      "0 0 0\n2000 0 0\n0 2000 0\n3 0 1 2\n"),
+              2.0, 1e-6);
+}
+
 std::string Complaint(const std::string& bytes, const std::string& file = "a.mesh") {
   return MessageOf([&] { (void)ParseMesh(bytes, file); });
 }
