@@ -88,37 +88,29 @@ VerdictCounts CountsOf(const std::vector<CertifiedEcho>& echoes) {
 /// Counts the firings of a frame by strata. A map would take as long as the trace does.
 class StrataCounter {
  public:
-  void Count(const Stratum& stratum) {
+  void Count(std::uint32_t label, std::uint8_t kind) {
     // Neighbours mostly have one label, and a frame some ten.
-    if (stratum.label != label_) FindLabel(stratum.label);
-    ++counts_[first_ + PlaceOf(stratum)];
+    if (label != label_) FindLabel(label);
+    ++counts_[first_ + kind];
   }
   [[nodiscard]] std::vector<StratumCount> Strata() const {
     std::vector<StratumCount> strata;
     for (std::uint32_t place = 0; place < counts_.size(); ++place) {
       if (counts_[place] == 0) continue;
-      const std::uint32_t rest = place % kPerLabel;
-      strata.push_back({{labels_[place / kPerLabel], rest / 4, (rest & 2U) != 0, (rest & 1U) != 0},
-                        counts_[place],
-                        0.0});
+      strata.push_back({StratumOf(labels_[place / kNumStratumKinds], place % kNumStratumKinds),
+                        counts_[place], 0.0});
     }
     return strata;
   }
 
  private:
-  static constexpr std::uint32_t kPerLabel = 4 * (std::size(kStratumEnds_m) + 1);
-
-  static std::uint32_t PlaceOf(const Stratum& stratum) {
-    return 4 * stratum.range_bin + 2 * std::uint32_t{stratum.is_edge} +
-           std::uint32_t{stratum.has_return};
-  }
   void FindLabel(std::uint32_t label) {
     const auto at = std::ranges::find(labels_, label);
-    first_ = static_cast<std::size_t>(at - labels_.begin()) * kPerLabel;
+    first_ = static_cast<std::size_t>(at - labels_.begin()) * kNumStratumKinds;
     label_ = label;
     if (at != labels_.end()) return;
     labels_.push_back(label);
-    counts_.resize(labels_.size() * kPerLabel);
+    counts_.resize(labels_.size() * kNumStratumKinds);
   }
 
   std::vector<std::uint32_t> labels_;
@@ -239,11 +231,11 @@ FrameCertificate Certifier::Certify(Simulator& simulator,
 FrameCertificate Certifier::Certify(const Frame& frame,
                                     const CertifiedRegion* region,
                                     const ScanFirings& scan) const {
-  const std::vector<std::uint8_t> edges = EdgesOf(frame);
+  const std::vector<std::uint8_t> kinds = StratumKindsOf(frame, EdgesOf(frame));
   StrataCounter counter;
-  for (std::size_t cell = 0; cell < edges.size(); ++cell) {
+  for (std::size_t cell = 0; cell < kinds.size(); ++cell) {
     if (region == nullptr || region->cells[cell])
-      counter.Count(StratumOf(frame, cell, edges[cell] != 0));
+      counter.Count(frame.label[cell * frame.returns], kinds[cell]);
   }
   FrameCertificate certificate{counter.Strata(), {}};
   double per_scatter = probability_per_scatter_;
@@ -262,11 +254,11 @@ FrameCertificate Certifier::Certify(const Frame& frame,
   std::vector<std::uint32_t> cells;
   std::vector<std::uint32_t> strata;
   CellDraws draws(seed_, frame.index, most);
-  for (auto draw = draws.Next(); draw.cell < static_cast<double>(edges.size());
+  for (auto draw = draws.Next(); draw.cell < static_cast<double>(kinds.size());
        draw = draws.Next()) {
     const auto cell = static_cast<std::uint32_t>(draw.cell);
     if (region != nullptr && !region->cells[cell]) continue;
-    const Stratum stratum = StratumOf(frame, cell, edges[cell] != 0);
+    const Stratum stratum = StratumOf(frame.label[cell * frame.returns], kinds[cell]);
     const auto at =
         std::ranges::find(certificate.strata, stratum, [](const Stratum& each) { return each; });
     if (draw.number * most >= at->probability) continue;

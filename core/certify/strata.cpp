@@ -1,6 +1,7 @@
 #include "core/certify/strata.h"
 
 #include <cmath>
+#include <type_traits>
 
 namespace railcast {
 namespace {
@@ -8,39 +9,79 @@ namespace {
 constexpr float kEdgeMixedShare = 1e-3F;
 constexpr float kEdgeStep_m = 0.5F;
 
-}  // namespace
+// The loops below pass over every firing of every frame: they have no branches, and each one writes
+// one array, so that the compiler makes vectors of them.
 
-std::vector<std::uint8_t> EdgesOf(const Frame& frame) {
-  const std::size_t returns = frame.returns;
+/// @param stride As Frame::returns, a constant where there is one return.
+template <typename Stride>
+void MarkEdges(const Frame& frame, Stride stride, std::vector<std::uint8_t>& edges) {
   const std::size_t columns = frame.columns;
-  const std::size_t num_cells = frame.rows * columns;
+  const std::size_t num_cells = edges.size();
   const std::uint32_t* const label = frame.label.data();
   const std::uint32_t* const instance = frame.instance.data();
   const float* const range_m = frame.true_range_m.data();
-  std::vector<std::uint8_t> edges(num_cells);
-  // Without branches, since this passes over every firing of every frame.
-  const auto mark = [&](std::size_t a, std::size_t b, bool is_edge) {
-    edges[a] |= static_cast<std::uint8_t>(is_edge);
-    edges[b] |= static_cast<std::uint8_t>(is_edge);
-  };
+  const float* const mixed_share = frame.mixed_share.data();
   for (std::size_t cell = 0; cell < num_cells; ++cell) {
-    edges[cell] = static_cast<std::uint8_t>(frame.mixed_share[cell * returns] >= kEdgeMixedShare);
+    edges[cell] = static_cast<std::uint8_t>(mixed_share[cell * stride] >= kEdgeMixedShare);
   }
+  std::vector<std::uint8_t> differs(columns);
+  const auto mark = [&](std::size_t first, std::size_t apart, std::size_t num) {
+    for (std::size_t i = 0; i < num; ++i) edges[first + i] |= differs[i];
+    for (std::size_t i = 0; i < num; ++i) edges[first + apart + i] |= differs[i];
+  };
   for (std::size_t begin = 0; begin < num_cells; begin += columns) {
-    for (std::size_t cell = begin; cell + 1 < begin + columns; ++cell) {
-      const std::size_t a = cell * returns;
-      const std::size_t b = a + returns;
-      mark(cell, cell + 1,
-           ((label[a] ^ label[b]) | (instance[a] ^ instance[b])) != 0 ||
-               std::abs(range_m[a] - range_m[b]) > kEdgeStep_m);
+    for (std::size_t i = 0; i + 1 < columns; ++i) {
+      const std::size_t a = (begin + i) * stride;
+      const std::size_t b = (begin + i + 1) * stride;
+      differs[i] = static_cast<std::uint8_t>(
+          static_cast<int>(((label[a] ^ label[b]) | (instance[a] ^ instance[b])) != 0) |
+          static_cast<int>(std::abs(range_m[a] - range_m[b]) > kEdgeStep_m));
     }
+    mark(begin, 1, columns - 1);
+    if (begin + columns == num_cells) break;
+    for (std::size_t i = 0; i < columns; ++i) {
+      const std::size_t a = (begin + i) * stride;
+      const std::size_t b = (begin + columns + i) * stride;
+      differs[i] =
+          static_cast<std::uint8_t>(((label[a] ^ label[b]) | (instance[a] ^ instance[b])) != 0);
+    }
+    mark(begin, columns, columns);
   }
-  for (std::size_t cell = columns; cell < num_cells; ++cell) {
-    const std::size_t a = (cell - columns) * returns;
-    const std::size_t b = cell * returns;
-    mark(cell - columns, cell, ((label[a] ^ label[b]) | (instance[a] ^ instance[b])) != 0);
+}
+
+/// @param stride As above.
+template <typename Stride>
+void AddKinds(const Frame& frame, Stride stride, std::vector<std::uint8_t>& kinds) {
+  const float* const range_m = frame.true_range_m.data();
+  const auto* const outcome = frame.outcome.data();
+  for (std::size_t cell = 0; cell < kinds.size(); ++cell) {
+    kinds[cell] = static_cast<std::uint8_t>(4 * StratumBinOf(range_m[cell * stride]) +
+                                            2 * std::uint32_t{kinds[cell]} +
+                                            std::uint32_t{HasPoint(outcome[cell * stride])});
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> EdgesOf(const Frame& frame) {
+  std::vector<std::uint8_t> edges(frame.rows * frame.columns);
+  if (frame.returns == 1) {
+    MarkEdges(frame, std::integral_constant<std::size_t, 1>(), edges);
+  } else {
+    MarkEdges(frame, frame.returns, edges);
   }
   return edges;
+}
+
+std::vector<std::uint8_t> StratumKindsOf(const Frame& frame,
+                                         const std::vector<std::uint8_t>& edges) {
+  std::vector<std::uint8_t> kinds = edges;
+  if (frame.returns == 1) {
+    AddKinds(frame, std::integral_constant<std::size_t, 1>(), kinds);
+  } else {
+    AddKinds(frame, frame.returns, kinds);
+  }
+  return kinds;
 }
 
 }  // namespace railcast

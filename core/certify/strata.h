@@ -3,6 +3,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 #include "railcast/frame.h"
@@ -35,13 +36,18 @@ inline constexpr float kStratumEnds_m[] = {25.0F, 50.0F, 100.0F, 200.0F};
 /// than 0.5 m nearer or farther. Rows differ by more on level ground.
 [[nodiscard]] std::vector<std::uint8_t> EdgesOf(const Frame& frame);
 
-/// The stratum of a firing.
-[[nodiscard]] inline Stratum StratumOf(const Frame& frame, std::size_t cell, bool is_edge) {
-  const std::size_t slot = cell * frame.returns;
-  return {.label = frame.label[slot],
-          .range_bin = StratumBinOf(frame.true_range_m[slot]),
-          .is_edge = is_edge,
-          .has_return = HasPoint(frame.outcome[slot])};
+/// All of each firing's stratum but the label, as one number: four times the range bin, 2 at an
+/// edge and 1 with a return.
+/// @param edges As of EdgesOf().
+[[nodiscard]] std::vector<std::uint8_t> StratumKindsOf(const Frame& frame,
+                                                       const std::vector<std::uint8_t>& edges);
+inline constexpr std::uint32_t kNumStratumKinds = 4 * (std::size(kStratumEnds_m) + 1);
+
+[[nodiscard]] inline Stratum StratumOf(std::uint32_t label, std::uint32_t kind) {
+  return {.label = label,
+          .range_bin = kind / 4,
+          .is_edge = (kind & 2U) != 0,
+          .has_return = (kind & 1U) != 0};
 }
 
 }  // namespace railcast

@@ -26,9 +26,10 @@ TEST(Strata, AreByRangeUpTo25And50And100And200MetresAndBeyond) {
 TEST(Strata, TellWhatAFiringMeetsAndWhetherItReturned) {
   const Frame frame =
       MakeEchoFrame({{{60.0F, 5}}, {{61.0F, 5, 0.2F, 0.5F, Outcome::kBelowThreshold}}, {}});
-  EXPECT_EQ(StratumOf(frame, 0, true), (Stratum{5, 2, true, true}));
-  EXPECT_EQ(StratumOf(frame, 1, false), (Stratum{5, 2, false, false}));
-  EXPECT_EQ(StratumOf(frame, 2, false), (Stratum{0, 0, false, false}));
+  const std::vector<std::uint8_t> kinds = StratumKindsOf(frame, {1, 0, 0});
+  EXPECT_EQ(StratumOf(5, kinds[0]), (Stratum{5, 2, true, true}));
+  EXPECT_EQ(StratumOf(5, kinds[1]), (Stratum{5, 2, false, false}));
+  EXPECT_EQ(StratumOf(0, kinds[2]), (Stratum{0, 0, false, false}));
 }
 
 TEST(Strata, HaveAnEdgeWhereARowStepsByMoreThanHalfAMetre) {
