@@ -116,8 +116,7 @@ class ScenarioProgress {
 
 // A data set is certified unless the command line says otherwise; one that was begun goes on as it
 // was begun.
-std::string UsualCertify(const Recipe& recipe, const DatasetChoices& choices) {
-  if (recipe.has_plans()) return "off";
+std::string UsualCertify(const DatasetChoices& choices) {
   const std::filesystem::path file = choices.directory / kDatasetFile;
   if (!std::filesystem::exists(file)) return "1%";
   const auto record = ReadRecord<DatasetRecord>(ReadFileWhole(file), ShownPath(file));
@@ -133,8 +132,7 @@ std::string UsualCertify(const Recipe& recipe, const DatasetChoices& choices) {
 int RunDatasetCommand(DatasetOptions options) {
   const Recipe recipe = ReadRecipe(options.recipe, ReadRecordedBase);
   if (recipe.has_plans() && !options.has_format) options.choices.format = "same";
-  if (!options.choices.must_certify)
-    options.choices.certify = UsualCertify(recipe, options.choices);
+  if (!options.choices.must_certify) options.choices.certify = UsualCertify(options.choices);
   static_cast<void>(CertifiedShareOf(options.choices.certify));
   if (options.has_scenarios_only) return WriteScenarios(recipe, options);
   // The folder can be continued however the program ends.

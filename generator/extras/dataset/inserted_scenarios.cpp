@@ -20,6 +20,7 @@
 #include "core/io/run/run_record.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
+#include "generator/extras/insert/inserter.h"
 
 namespace railcast {
 namespace {
@@ -91,6 +92,10 @@ const RecordedRun& RunOf(const RecordedBase& base) {
   return read->run();
 }
 
+InsertPlan PlanOf(const DrawnScenario& drawn) {
+  return MakeInsertPlan(RunOf(*drawn.run), drawn.scenario);
+}
+
 InsertResult MakeInserted(const DrawnScenario& drawn,
                           const DatasetChoices& choices,
                           const fs::path& directory,
@@ -99,6 +104,7 @@ InsertResult MakeInserted(const DrawnScenario& drawn,
   const auto name = std::ranges::find_if(
       drawn.record.drawn, [](const auto& each) { return each.first == "recording"; });
   Check(name != drawn.record.drawn.end(), "the scenario of a plan names its recording");
+  const InsertPlan plan = PlanOf(drawn);
   return RunInsert({.recording = drawn.run->recording(),
                     .recording_name = name->second.get<std::string>(),
                     .recording_hash = ContentHash(drawn.run->Traits()),
@@ -107,9 +113,10 @@ InsertResult MakeInserted(const DrawnScenario& drawn,
                     .format = choices.format,
                     .first_frame = drawn.first_frame,
                     .last_frame = drawn.first_frame + drawn.num_frames - 1,
+                    .certify = Inserter::CanCertify(plan) ? choices.certify : "off",
                     .num_threads = choices.num_threads,
                     .is_known = is_known},
-                   MakeInsertPlan(RunOf(*drawn.run), drawn.scenario), hooks);
+                   plan, hooks);
 }
 
 SequenceRecord RecordOfInserted(const DrawnScenario& drawn,

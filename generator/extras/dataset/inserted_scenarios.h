@@ -23,7 +23,11 @@ namespace railcast {
 /// @pre ReadRecordedBase() made the base.
 [[nodiscard]] const RecordedRun& RunOf(const RecordedBase& base);
 
-/// Puts a drawn plan into its recording, in a folder that `insert` writes, or goes on with it.
+/// @throws InputError as MakeInsertPlan() does.
+[[nodiscard]] InsertPlan PlanOf(const DrawnScenario& drawn);
+
+/// Puts a drawn plan into its recording, in a folder that `insert` writes, or goes on with it. Its
+/// frames have certificates if they are asked for and the plan can have them.
 /// @param directory Of this scenario.
 /// @param is_known Whether the directory is known to be the scenario's, whatever it says.
 /// @throws InputError as MakeInsertPlan() and RunInsert() do.

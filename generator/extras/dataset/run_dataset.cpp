@@ -28,6 +28,7 @@
 #include "core/trace/trace_program.h"
 #include "generator/extras/dataset/dataset_directory.h"
 #include "generator/extras/dataset/inserted_scenarios.h"
+#include "generator/extras/insert/inserter.h"
 #include "generator/extras/insert/run/insert_run.h"
 #include "generator/run/all_sensors.h"
 #include "generator/run/frame_maker.h"
@@ -84,7 +85,6 @@ void CheckChoices(const Recipe& recipe, const DatasetChoices& choices) {
   if (choices.fields != usual.fields) throw InputError("--fields" + rule);
   if (choices.is_merged) throw InputError("--merged" + rule);
   if (!choices.isa.empty()) throw InputError("--isa" + rule);
-  if (choices.certify != usual.certify) throw InputError("--certify" + rule);
   for (const RecipeBase& base : recipe.bases) {
     InsertChoices insert;
     insert.recording = base.run->recording();
@@ -99,9 +99,14 @@ void CheckCertify(const Recipe& recipe, const DatasetChoices& choices) {
   if (!choices.must_certify || !CertifiedShareOf(choices.certify)) return;
   const ScenarioDrawer drawer(recipe);
   for (std::uint32_t i = 0; i < recipe.num_scenarios; ++i) {
-    if (!EffectsOf(drawer.Draw(i).scenario).dense_footprint) return;
+    const DrawnScenario drawn = drawer.Draw(i);
+    if (drawn.run ? Inserter::CanCertify(PlanOf(drawn))
+                  : !EffectsOf(drawn.scenario).dense_footprint) {
+      return;
+    }
   }
   throw InputError("--certify: must be left out: all scenarios of " + ShownPath(recipe.file) +
+                   (recipe.has_plans() ? " have no objects, or" : "") +
                    " are of fidelity reference, which it compares with");
 }
 

@@ -251,6 +251,10 @@ Inserter::Inserter(const InsertPlan& plan, int num_threads, std::optional<double
 
 Inserter::~Inserter() = default;
 
+bool Inserter::CanCertify(const InsertPlan& plan) {
+  return !plan.world->objects().empty() && !EffectsOf(plan.scenario).dense_footprint;
+}
+
 const std::optional<CertifySpec>& Inserter::certify() const {
   return parts_->certify;
 }

@@ -21,6 +21,9 @@ class Inserter {
   Inserter(const InsertPlan& plan, int num_threads, std::optional<double> certify = {});
   ~Inserter();
 
+  /// Whether frames of the plan can have certificates: whether it has objects, and another rung
+  /// than `reference`.
+  [[nodiscard]] static bool CanCertify(const InsertPlan& plan);
   /// What the certificates are about, if frames have them.
   [[nodiscard]] const std::optional<CertifySpec>& certify() const;
 

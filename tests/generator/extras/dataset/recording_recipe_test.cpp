@@ -222,6 +222,38 @@ TEST_F(RecordingRecipe, WritesWhatInsertWritesOfTheDrawnPlan) {
   }
 }
 
+TEST_F(RecordingRecipe, CertifiesThePlansThatHaveObjects) {
+  nlohmann::json json = Boxes();
+  json["objects"][0]["count"]["values"] = {0, 1};
+  const Recipe recipe = Read(json);
+  DatasetChoices choices = Choices("certified");
+  choices.certify = "5000%";
+  (void)RunDataset(recipe, choices, NoDatasetHooks());
+  std::set<bool> has_certificate;
+  for (std::uint32_t i = 0; i < recipe.num_scenarios; ++i) {
+    const fs::path folder = Path("certified") / SequenceFolderOf(i);
+    const bool has_object = !ScenarioDrawer(recipe).Draw(i).scenario.world.objects.empty();
+    const Json manifest = Json::parse(ReadFileWhole(folder / "manifest.json"));
+    EXPECT_EQ(manifest.contains("certificate"), has_object) << i;
+    if (has_object) EXPECT_GT(manifest.at("certificate").at("drawn"), 10) << i;
+    has_certificate.insert(has_object);
+  }
+  EXPECT_EQ(has_certificate.size(), 2U);
+  // With the same frames as without.
+  (void)Make(recipe, "plain");
+  for (const auto& [name, bytes] : FilesOfDataset(Path("plain"))) {
+    if (!name.ends_with(".pcd")) continue;
+    EXPECT_EQ(ReadFileWhole(Path("certified") / name), bytes) << name;
+  }
+  // If it is asked for, at least one must have objects.
+  json["objects"][0]["count"]["values"] = {0};
+  choices.must_certify = true;
+  choices.directory = Path("refused");
+  EXPECT_EQ(MessageOf([&] { (void)RunDataset(Read(json), choices, NoDatasetHooks()); }),
+            "--certify: must be left out: all scenarios of " + ShownPath(Path("recipe.json")) +
+                " have no objects, or are of fidelity reference, which it compares with");
+}
+
 TEST_F(RecordingRecipe, HasTheSameBytesInShardsAfterStopsAndOnSeveralThreads) {
   const Recipe recipe = Read(Boxes());
   (void)Make(recipe, "whole");
