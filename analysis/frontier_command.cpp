@@ -78,7 +78,7 @@ int RunFrontier(const FrontierOptions& options, const std::string& command_line)
   const FidelityChoice choice = ChooseFidelity(*simulator, scenario, [&](double done) {
     progress.Show("what the scene needs", (1.0 - kRowsShare) * done);
   });
-  UseChoice(choice, plan.rows);
+  UseChoice(choice, LabelTable(scenario.labels), plan.rows);
   const std::vector<RowResult> results =
       MeasureFrontier(plan, scenario, *simulator, kept, [&](const std::string& what, double done) {
         progress.Show(what, 1.0 - kRowsShare + kRowsShare * done);

@@ -96,6 +96,12 @@ Json RowObject(const RowResult& result, const LabelTable& labels) {
                  {"p50_ms", result.p50_ms()},
                  {"p99_ms", result.p99_ms()},
                  {"ratio_to_raw_trace", result.ratio()}};
+  if (!result.row.footprint_labels.empty()) {
+    object["footprint_of"] = Json::array();
+    for (const std::uint32_t label : result.row.footprint_labels) {
+      object["footprint_of"].push_back(LabelName(label, labels));
+    }
+  }
   object["detail"] = result.row.has_auto_detail() ? "auto" : "full";
   if (result.row.has_auto_detail()) {
     object["statistical_differences_from_full_detail"] = DetailOf(result, labels);

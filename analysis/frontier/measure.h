@@ -37,6 +37,7 @@ struct FrontierRow {
   EffectSet effects{};
   std::optional<int> sub_rays{};  ///< Sub-rays of dense_footprint beside the central ray.
   int footprint_rays = 64;        ///< BeamSpec::footprint_rays.
+  std::vector<std::uint32_t> footprint_labels{};  ///< DetectorSpec::footprint_labels.
 
   /// Whether the scene is as coarse as detail `auto` permits; otherwise it is in full detail.
   [[nodiscard]] bool has_auto_detail() const { return group == RowGroup::kAutoDetail; }
@@ -46,7 +47,8 @@ struct FrontierRow {
   }
 };
 
-/// Returns all rows in the order of the table. UseChoice() fills in the row `auto`.
+/// Returns all rows in the order of the table. UseChoice() fills in the rows `auto` and
+/// `footprint_of`.
 [[nodiscard]] std::vector<FrontierRow> AllFrontierRows();
 
 /// Chooses rows by a comma-separated list of names, or "all". The raw trace is always included,
@@ -54,8 +56,11 @@ struct FrontierRow {
 /// @throws InputError that names the unknown rows.
 [[nodiscard]] std::vector<FrontierRow> ChooseFrontierRows(const std::string& names);
 
-/// Gives the row `auto` what fidelity auto has chosen.
-void UseChoice(const FidelityChoice& choice, std::vector<FrontierRow>& rows);
+/// Gives the row `auto` what fidelity auto has chosen, and the row `footprint_of` the classes of
+/// that choice or, if it has none, all but ground, ballast, sleepers, roads and plants.
+void UseChoice(const FidelityChoice& choice,
+               const LabelTable& labels,
+               std::vector<FrontierRow>& rows);
 
 /// The scenario's spec with a row's effects. The published model's threshold comes from the same
 /// data-sheet figure as the physical one: 10 % reflectance is just detected at

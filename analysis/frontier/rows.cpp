@@ -1,7 +1,9 @@
 #include "analysis/frontier/measure.h"
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
+#include <string_view>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -17,6 +19,21 @@ EffectSet With(EffectSet effects, bool EffectSet::*effect, bool is_on) {
 // With the central ray these are 4, 7, 19 and 64 rays per beam.
 constexpr int kBruteForceSubRays[] = {3, 6, 18, 63};
 constexpr int kReferenceSubRays[] = {16, 64, 256};
+
+constexpr const char* kFootprintOf = "footprint_of";
+// What most beams of a usual line meet, and few tasks ask about.
+constexpr std::string_view kBackground[] = {"ground", "ballast", "sleeper", "slab_track",
+                                            "road",   "grass",   "bush",    "tree"};
+
+std::vector<std::uint32_t> Things(const LabelTable& labels) {
+  std::vector<std::uint32_t> things;
+  for (const Label& label : labels.labels()) {
+    const bool is_thing = std::ranges::find(kBackground, label.name) == std::end(kBackground);
+    if (is_thing) things.push_back(label.id);
+  }
+  std::ranges::sort(things);
+  return things;
+}
 
 }  // namespace
 
@@ -81,6 +98,7 @@ std::vector<FrontierRow> AllFrontierRows() {
       {"surface", RowGroup::kLadder, surface},
       {"surface+thin_conductors", RowGroup::kLadder, surface_wires},
       {"footprint-thin_conductors", RowGroup::kBetween, sampled_wires},
+      {kFootprintOf, RowGroup::kLadder, footprint},
       {"footprint_16", RowGroup::kLadder, footprint, {}, 16},
       {"footprint", RowGroup::kLadder, footprint},
       {"auto", RowGroup::kChosen},
@@ -119,11 +137,16 @@ std::vector<FrontierRow> ChooseFrontierRows(const std::string& names) {
   return rows;
 }
 
-void UseChoice(const FidelityChoice& choice, std::vector<FrontierRow>& rows) {
+void UseChoice(const FidelityChoice& choice,
+               const LabelTable& labels,
+               std::vector<FrontierRow>& rows) {
+  const std::vector<std::uint32_t> chosen = labels.Ids(choice.footprint_of, "/tolerance/of");
   for (FrontierRow& row : rows) {
+    if (row.name == kFootprintOf) row.footprint_labels = chosen.empty() ? Things(labels) : chosen;
     if (row.group != RowGroup::kChosen) continue;
     row.effects = choice.effects;
     row.footprint_rays = choice.footprint_rays;
+    row.footprint_labels = chosen;
   }
 }
 
@@ -131,6 +154,7 @@ SimulatorSpec SpecOfRow(const FrontierRow& row, const SimulatorSpec& scenario) {
   SimulatorSpec spec = scenario;
   spec.detector.effects = row.effects;
   spec.detector.beam.footprint_rays = row.footprint_rays;
+  spec.detector.footprint_labels = row.footprint_labels;
   if (row.sub_rays) spec.detector.beam.reference_rays = *row.sub_rays;
   spec.detector.plausibility.reference_threshold = 0.1;
   spec.detector.plausibility.reference_range_m = scenario.detector.receiver.range_at_10_percent_m;

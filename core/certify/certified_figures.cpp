@@ -1,5 +1,6 @@
 #include "core/certify/certified_figures.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <iterator>
@@ -134,8 +135,7 @@ void CertificateSums::Add(const FrameCertificate& frame) {
   alone.tolerance.reset();
   CertificateSums of_frame(std::move(alone));
   of_frame.Add(frame);
-  const Side side =
-      SideOf(of_frame.PartOf("all", [](const CertifiedEcho&) { return true; }), *spec_.tolerance);
+  const Side side = SideOf(of_frame.PartOfTolerance(), *spec_.tolerance);
   if (side == Side::kWithin) ++num_within_;
   if (side == Side::kBeyond) ++num_beyond_;
 }
@@ -183,6 +183,13 @@ CertifiedPart CertificateSums::PartOf(std::string name, const IsOf& is_of) const
     part.power_p95 = shares_.Quantile(power_errors, 0.95);
   }
   return part;
+}
+
+CertifiedPart CertificateSums::PartOfTolerance() const {
+  const std::vector<std::uint32_t>& labels = spec_.tolerance_labels;
+  return PartOf("all", [&](const CertifiedEcho& echo) {
+    return labels.empty() || std::ranges::binary_search(labels, echo.label);
+  });
 }
 
 CertifiedRung CertificateSums::RungOf(std::size_t i) const {
@@ -241,7 +248,7 @@ RunCertificate CertificateSums::Result(const LabelTable& labels) const {
   for (std::size_t i = 0; i < spec_.rungs.size(); ++i) result.rungs.push_back(RungOf(i));
   if (spec_.tolerance) {
     result.tolerance = {num_within_, num_beyond_,
-                        SideOf(result.all, *spec_.tolerance) == Side::kWithin};
+                        SideOf(PartOfTolerance(), *spec_.tolerance) == Side::kWithin};
   }
   return result;
 }

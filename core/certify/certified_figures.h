@@ -76,6 +76,7 @@ struct CertifySpec {
   std::vector<RungBeside> rungs{};
   std::map<std::uint32_t, std::string> objects{};  ///< Names by instance.
   std::optional<ToleranceSpec> tolerance{};
+  std::vector<std::uint32_t> tolerance_labels{};  ///< Of ToleranceSpec::of.
 };
 
 /// Adds up the certificates of a run's frames. They are kept, since figures need them all: some 100
@@ -90,6 +91,8 @@ class CertificateSums {
  private:
   using IsOf = std::function<bool(const CertifiedEcho&)>;
   [[nodiscard]] CertifiedPart PartOf(std::string name, const IsOf& is_of) const;
+  /// What the tolerance limits.
+  [[nodiscard]] CertifiedPart PartOfTolerance() const;
   [[nodiscard]] CertifiedRung RungOf(std::size_t i) const;
 
   CertifySpec spec_;

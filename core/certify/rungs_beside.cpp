@@ -34,7 +34,7 @@ EffectSet EffectsAt(Fidelity rung, const ScenarioSpec& scenario) {
 
 double InstructionsPerFiring(const EffectSet& effects, const BeamSpec& beam) {
   if (effects.dense_footprint) return beam.reference_rays * kInstructionsOfReferenceRay;
-  return InstructionsOf(effects, beam.footprint_rays) + kInstructionsOfWriting;
+  return InstructionsOf(effects, beam) + kInstructionsOfWriting;
 }
 
 std::vector<RungBeside> RungsBeside(const ScenarioSpec& scenario, const DetectorSpec& own) {
@@ -43,10 +43,14 @@ std::vector<RungBeside> RungsBeside(const ScenarioSpec& scenario, const Detector
   std::optional<RungBeside> dearer;
   for (const Fidelity rung : kRungs) {
     const EffectSet effects = EffectsAt(rung, scenario);
-    if (effects == own.effects || effects.dense_footprint) continue;
     const BeamSpec& beam = scenario.lidar.beam;
+    // Fidelity `auto` may give fewer beams a width.
+    const bool is_own = effects == own.effects && beam.footprint_of == own.beam.footprint_of;
+    if (is_own || effects.dense_footprint) continue;
     const RungBeside beside{std::string(NameOf(rung)),
-                            {WithoutRangeErrors(effects), beam.footprint_rays},
+                            {.effects = WithoutRangeErrors(effects),
+                             .footprint_rays = beam.footprint_rays,
+                             .has_footprint_of = !beam.footprint_of.empty()},
                             InstructionsPerFiring(effects, beam) / own_cost};
     if (beside.cost < 1.0) cheaper = beside;
     if (beside.cost > 1.0 && !dearer) dearer = beside;

@@ -51,7 +51,7 @@ struct Omittable {
 /// The candidates among which the search chooses.
 struct Candidates {
   EffectSet full;  // The set with all of them on.
-  int footprint_rays{};
+  BeamSpec beam;   // With all sub-rays.
   std::vector<Omittable> all;
 
   [[nodiscard]] EffectSet Without(Omissions left_out) const {
@@ -67,7 +67,7 @@ struct Candidates {
         return static_cast<int>(kNumCrowdedSubRays);
       }
     }
-    return footprint_rays;
+    return beam.footprint_rays;
   }
 };
 
@@ -78,7 +78,9 @@ bool MayBeLeftOut(const Effect& effect) {
 }
 
 Candidates FindCandidates(const ScenarioSpec& scenario, FidelityChoice& choice) {
-  Candidates candidates{SwitchedEffects(scenario), scenario.lidar.beam.footprint_rays, {}};
+  Candidates candidates{SwitchedEffects(scenario), scenario.lidar.beam, {}};
+  BeamSpec& beam = candidates.beam;
+  beam.footprint_of = choice.footprint_of;
   EffectSet& full = candidates.full;
   const DetectorSpec spec = DetectorSpecOf(scenario, scenario.lidar, full);
   const auto is_switched_on = [&](const Effect& effect) {
@@ -89,13 +91,13 @@ Candidates FindCandidates(const ScenarioSpec& scenario, FidelityChoice& choice) 
     choice.without_cause.emplace_back(effect.name);
     full.*effect.is_on = false;
   }
-  choice.full_instructions = InstructionsOf(full, candidates.footprint_rays);
+  choice.full_instructions = InstructionsOf(full, beam);
   // What saves less than this is not worth any error.
   constexpr double kNextToNothing = 0.01;
   const double least_saving = kNextToNothing * choice.full_instructions;
   for (const Effect& effect : EffectTable()) {
     if (!(full.*effect.is_on)) continue;
-    const double saving = SavingOf(effect, full);
+    const double saving = SavingOf(effect, full, beam);
     if (is_switched_on(effect) || !MayBeLeftOut(effect) || saving < least_saving) {
       choice.kept.emplace_back(effect.name);
     } else {
@@ -103,9 +105,11 @@ Candidates FindCandidates(const ScenarioSpec& scenario, FidelityChoice& choice) 
     }
   }
   if (full.footprint && !full.dense_footprint &&
-      candidates.footprint_rays > static_cast<int>(kNumCrowdedSubRays)) {
-    candidates.all.push_back({std::to_string(candidates.footprint_rays) + " sub-rays",
-                              kInstructionsOfMoreSubRays, nullptr});
+      beam.footprint_rays > static_cast<int>(kNumCrowdedSubRays)) {
+    BeamSpec sparse = beam;
+    sparse.footprint_rays = static_cast<int>(kNumCrowdedSubRays);
+    candidates.all.push_back({std::to_string(beam.footprint_rays) + " sub-rays",
+                              choice.full_instructions - InstructionsOf(full, sparse), nullptr});
   }
   return candidates;
 }
@@ -123,6 +127,16 @@ EffectSet ReferenceOf(EffectSet effects) {
   return effects;
 }
 
+// The spec with the width of beams that was chosen.
+SimulatorSpec WithWidthOf(const FidelityChoice& choice,
+                          const ScenarioSpec& scenario,
+                          SimulatorSpec spec) {
+  spec.detector.beam.footprint_of = choice.footprint_of;
+  spec.detector.footprint_labels =
+      LabelTable(scenario.labels).Ids(choice.footprint_of, "/tolerance/of");
+  return spec;
+}
+
 // Of the classes only those of objects: the task is not about grass.
 ComparisonSpec ComparisonOf(const ScenarioSpec& scenario, const World& world) {
   ComparisonSpec spec = MakeComparisonSpec(scenario.lidar.beam, scenario.lidar.range_max_m,
@@ -132,18 +146,24 @@ ComparisonSpec ComparisonOf(const ScenarioSpec& scenario, const World& world) {
            std::ranges::find(world.objects(), part.id, &SceneObject::label) ==
                world.objects().end();
   });
+  spec.labels = LabelTable(scenario.labels).Ids(scenario.tolerance.of, "/tolerance/of");
   return spec;
 }
 
 /// Scans frames with one setting after another and compares them with those of the reference.
 class Comparer {
  public:
-  Comparer(Simulator& simulator, const ScenarioSpec& scenario, const EffectSet& reference)
+  /// @param spec The simulator's, with other beams.
+  Comparer(Simulator& simulator,
+           const ScenarioSpec& scenario,
+           const SimulatorSpec& spec,
+           const EffectSet& reference)
       : simulator_(simulator),
-        spec_(simulator.spec()),
+        own_spec_(simulator.spec()),
+        spec_(spec),
         reference_(reference),
         comparison_(ComparisonOf(scenario, simulator.world())) {}
-  ~Comparer() { simulator_.Use(spec_); }
+  ~Comparer() { simulator_.Use(own_spec_); }
   Comparer(const Comparer&) = delete;
   Comparer& operator=(const Comparer&) = delete;
 
@@ -163,7 +183,7 @@ class Comparer {
     for (std::size_t i = 0; i < frames_.size(); ++i) {
       if (!references_[i]) {
         on_reference_();
-        Scan(frames_[i], reference_, candidates.footprint_rays, references_[i].emplace());
+        Scan(frames_[i], reference_, candidates.beam.footprint_rays, references_[i].emplace());
       }
       for (std::size_t k = 0; k < sets.size(); ++k) {
         Scan(frames_[i], candidates.Without(sets[k]), candidates.RaysWithout(sets[k]), frame);
@@ -194,6 +214,7 @@ class Comparer {
   }
 
   Simulator& simulator_;
+  SimulatorSpec own_spec_;
   SimulatorSpec spec_;
   EffectSet reference_;
   ComparisonSpec comparison_;
@@ -207,11 +228,12 @@ void Store(const EffectSearchResult& found,
            const ToleranceSpec& tolerance,
            FidelityChoice& choice) {
   choice.effects = candidates.Without(found.left_out);
-  choice.footprint_rays = candidates.RaysWithout(found.left_out);
+  BeamSpec beam = candidates.beam;
+  beam.footprint_rays = choice.footprint_rays = candidates.RaysWithout(found.left_out);
   choice.deviation = found.deviation;
   choice.full_deviation = found.full_deviation;
   choice.is_within_tolerance = IsWithin(choice.deviation, tolerance);
-  choice.instructions = InstructionsOf(choice.effects, choice.footprint_rays);
+  choice.instructions = InstructionsOf(choice.effects, beam);
   for (std::size_t i = 0; i < candidates.all.size(); ++i) {
     choice.measured.push_back({candidates.all[i].name, !IsIn(found.left_out, i), found.without[i]});
   }
@@ -225,6 +247,8 @@ FidelityChoice ChooseFidelity(Simulator& simulator,
   Check(scenario.fidelity == Fidelity::kAuto, "there is something to choose");
   FidelityChoice choice;
   choice.tolerance = scenario.tolerance;
+  const std::vector<std::string>& own = scenario.lidar.beam.footprint_of;
+  choice.footprint_of = own.empty() ? scenario.tolerance.of : own;
   choice.has_full_detail =
       simulator.spec().has_full_detail || simulator.spec().detector.effects.dense_footprint;
   const Candidates candidates = FindCandidates(scenario, choice);
@@ -234,7 +258,8 @@ FidelityChoice ChooseFidelity(Simulator& simulator,
   const auto num_references = static_cast<double>(frames.samples.size() + frames.held_back.size());
   int num_done = 0;
   const auto advance = [&] { on_progress(num_done++ / num_references); };
-  Comparer comparer(simulator, scenario, ReferenceOf(candidates.full));
+  Comparer comparer(simulator, scenario, WithWidthOf(choice, scenario, simulator.spec()),
+                    ReferenceOf(candidates.full));
   comparer.UseFrames(frames.samples, advance);
   std::vector<double> savings;
   for (const Omittable& candidate : candidates.all) savings.push_back(candidate.saving);
@@ -262,7 +287,7 @@ FidelityChoice UseChosenFidelity(Simulator& simulator,
                                  const ScenarioSpec& scenario,
                                  const ChoiceProgress& on_progress) {
   FidelityChoice choice = ChooseFidelity(simulator, scenario, on_progress);
-  SimulatorSpec spec = simulator.spec();
+  SimulatorSpec spec = WithWidthOf(choice, scenario, simulator.spec());
   spec.detector.effects = choice.effects;
   spec.detector.beam.footprint_rays = choice.footprint_rays;
   simulator.Use(spec);

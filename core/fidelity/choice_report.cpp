@@ -85,11 +85,13 @@ ToleranceSpec SearchTolerance(ToleranceSpec tolerance) {
 }
 
 Json ObjectOf(const ToleranceSpec& t) {
-  return {{"range_m", t.range_m},
-          {"missed_share", t.missed_share},
-          {"false_share", t.false_share},
-          {"thin_missed_share", t.thin_missed_share},
-          {"intensity", t.intensity}};
+  Json object = {{"range_m", t.range_m},
+                 {"missed_share", t.missed_share},
+                 {"false_share", t.false_share},
+                 {"thin_missed_share", t.thin_missed_share},
+                 {"intensity", t.intensity}};
+  if (!t.of.empty()) object["of"] = t.of;
+  return object;
 }
 
 Json ErrorObject(const SampledError& error) {
@@ -135,7 +137,11 @@ std::string ChoiceText(const FidelityChoice& choice) {
   const ToleranceSpec& t = choice.tolerance;
   std::string text = "fidelity auto uses " + List(EffectNames(choice.effects)) + "\n";
   if (choice.effects.footprint) {
-    text += "  sub-rays:  " + std::to_string(choice.footprint_rays) + "\n";
+    text += "  sub-rays:  " + std::to_string(choice.footprint_rays);
+    if (!choice.footprint_of.empty()) {
+      text += ", where a beam may meet " + List(choice.footprint_of);
+    }
+    text += "\n";
   }
   text +=
       choice.has_full_detail
@@ -144,7 +150,7 @@ std::string ChoiceText(const FidelityChoice& choice) {
             "many echoes of about the same intensity, but other ones\n";
   text += "  tolerance: " +
           Text({t.range_m, t.missed_share, t.false_share, t.thin_missed_share, t.intensity, {}}) +
-          "\n";
+          (t.of.empty() ? "" : " of " + List(t.of)) + "\n";
   text += "  chosen:    " + Text(choice.deviation) + ", about " + Rounded(choice.instructions, 0) +
           " instructions a firing\n";
   text += "  all:       " + Text(choice.full_deviation) + ", about " +
@@ -189,22 +195,23 @@ std::string ChoiceJson(const FidelityChoice& choice) {
                          {"deviation", ObjectOf(held.deviation, t)},
                          {"is_within_tolerance", held.is_within_tolerance}});
   }
-  const Json json = {{"effects", EffectNames(choice.effects)},
-                     {"footprint_rays", choice.footprint_rays},
-                     {"detail", choice.has_full_detail ? "full" : "auto"},
-                     {"tolerance", ObjectOf(t)},
-                     {"deviation", ObjectOf(choice.deviation, t, true)},
-                     {"is_within_tolerance", choice.is_within_tolerance},
-                     {"deviation_of_all_effects", ObjectOf(choice.full_deviation, t, true)},
-                     {"instructions_per_firing", choice.instructions},
-                     {"instructions_per_firing_of_all_effects", choice.full_instructions},
-                     {"measured", measured},
-                     {"kept_unmeasured", choice.kept},
-                     {"left_out_without_cause", choice.without_cause},
-                     {"sample_frames", choice.sample_frames},
-                     {"has_echoes", choice.has_echoes},
-                     {"held_back", held_back},
-                     {"held_back_beyond_tolerance", NumBeyond(choice)}};
+  Json json = {{"effects", EffectNames(choice.effects)},
+               {"footprint_rays", choice.footprint_rays},
+               {"detail", choice.has_full_detail ? "full" : "auto"},
+               {"tolerance", ObjectOf(t)},
+               {"deviation", ObjectOf(choice.deviation, t, true)},
+               {"is_within_tolerance", choice.is_within_tolerance},
+               {"deviation_of_all_effects", ObjectOf(choice.full_deviation, t, true)},
+               {"instructions_per_firing", choice.instructions},
+               {"instructions_per_firing_of_all_effects", choice.full_instructions},
+               {"measured", measured},
+               {"kept_unmeasured", choice.kept},
+               {"left_out_without_cause", choice.without_cause},
+               {"sample_frames", choice.sample_frames},
+               {"has_echoes", choice.has_echoes},
+               {"held_back", held_back},
+               {"held_back_beyond_tolerance", NumBeyond(choice)}};
+  if (!choice.footprint_of.empty()) json["footprint_of"] = choice.footprint_of;
   return json.dump(2);
 }
 

@@ -180,20 +180,25 @@ bool IsWithinOrAsFull(const Deviation& deviation,
   return Excess(ValuesOf(deviation), LimitsFor(tolerance, full, 1.0)) == 0.0;
 }
 
-double InstructionsOf(const EffectSet& effects, int footprint_rays) {
+double InstructionsOf(const EffectSet& effects, const BeamSpec& beam) {
   double sum = kInstructionsOfGeometry;
+  double of_width = 0.0;
   for (const Effect& effect : EffectTable()) {
-    if (effects.*effect.is_on) sum += effect.instructions.value_or(0.0);
+    if (!(effects.*effect.is_on)) continue;
+    (effect.is_on == &EffectSet::footprint ? of_width : sum) += effect.instructions.value_or(0.0);
   }
-  const bool has_fewer = footprint_rays < static_cast<int>(kNumSubRays);
-  return effects.footprint && has_fewer ? sum - kInstructionsOfMoreSubRays : sum;
+  if (!effects.footprint) return sum;
+  if (beam.footprint_rays < static_cast<int>(kNumSubRays)) of_width -= kInstructionsOfMoreSubRays;
+  if (beam.footprint_of.empty()) return sum + of_width;
+  return sum + kInstructionsOfChoosing + kShareOfChosen * of_width;
 }
 
-double SavingOf(const Effect& effect, const EffectSet& effects) {
+double SavingOf(const Effect& effect, const EffectSet& effects, const BeamSpec& beam) {
   EffectSet without = effects;
   without.*effect.is_on = false;
-  const int num_rays = static_cast<int>(kNumCrowdedSubRays);
-  return InstructionsOf(effects, num_rays) - InstructionsOf(without, num_rays);
+  BeamSpec sparse = beam;
+  sparse.footprint_rays = static_cast<int>(kNumCrowdedSubRays);
+  return InstructionsOf(effects, sparse) - InstructionsOf(without, sparse);
 }
 
 Deviation DeviationOf(const FrameDifference& difference) {

@@ -56,13 +56,19 @@ inline constexpr double kInstructionsOfGeometry = 2677.0;
 /// the same way.
 inline constexpr double kInstructionsOfMoreSubRays = 12274.0;
 
+/// Where only beams have a width that may meet certain classes (BeamSpec::footprint_of): what it
+/// takes to tell which, and the share of `footprint` that is left. Counted in the same way, with no
+/// such class and with all but ground, ballast, sleepers, roads and plants.
+inline constexpr double kInstructionsOfChoosing = 1490.0;
+inline constexpr double kShareOfChosen = 0.17;
+
 /// Estimated instructions per firing of Simulator::Scan with a set of effects.
-[[nodiscard]] double InstructionsOf(const EffectSet& effects, int footprint_rays);
+[[nodiscard]] double InstructionsOf(const EffectSet& effects, const BeamSpec& beam);
 
 /// Instructions per firing that leaving out an effect of a set saves. Of the footprint it is the
 /// saving with kNumCrowdedSubRays; the further ones are a candidate of their own, so that savings
 /// add up.
-[[nodiscard]] double SavingOf(const Effect& effect, const EffectSet& effects);
+[[nodiscard]] double SavingOf(const Effect& effect, const EffectSet& effects, const BeamSpec& beam);
 
 /// The limits of the search are so much of the tolerance, so that other frames than the samples are
 /// likely to be within it as well.

@@ -175,6 +175,11 @@ void FrameComparison::AddEdges(const Frame& reference,
   }
 }
 
+bool FrameComparison::IsCompared(const Frame& frame, std::size_t slot) const {
+  return IsSurfaceEcho(frame, slot) &&
+         (spec_.labels.empty() || IsOneOf(spec_.labels, frame.label[slot]));
+}
+
 void FrameComparison::AddFiring(const Frame& reference, const Frame& other, std::size_t firing) {
   const FiringEchoes ours(reference, firing);
   const FiringEchoes theirs(other, firing);
@@ -184,7 +189,7 @@ void FrameComparison::AddFiring(const Frame& reference, const Frame& other, std:
   for (std::size_t k = 0; k < theirs.slots.size(); ++k) {
     const bool is_matched = std::any_of(matches.begin(), matches.end(),
                                         [k](const auto& match) { return match.second == k; });
-    if (IsSurfaceEcho(other, theirs.slots[k])) {
+    if (IsCompared(other, theirs.slots[k])) {
       sums_.echoes.Count(is_matched);
       parts_.CountOther(PlaceOf(other, theirs.slots[k]), is_matched);
     }
@@ -201,7 +206,7 @@ void FrameComparison::AddFiring(const Frame& reference, const Frame& other, std:
         std::find_if(matches.begin(), matches.end(), [i](const auto& m) { return m.first == i; });
     const bool is_matched = match != matches.end();
     sums_.reference_echoes_per_label[reference.label[slot]].Count(is_matched);
-    if (!IsSurfaceEcho(reference, slot)) continue;
+    if (!IsCompared(reference, slot)) continue;
     sums_.reference_echoes.Count(is_matched);
     parts_.CountReference(PlaceOf(reference, slot), is_matched);
     const float share = reference.footprint_share[slot];

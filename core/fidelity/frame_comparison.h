@@ -33,6 +33,7 @@ struct ComparisonSpec {
   std::vector<std::uint32_t> person_labels{};
   std::vector<std::uint32_t> pole_labels{};  ///< Labels of poles, masts and signals.
   std::vector<ScenePart> parts{};            ///< FrameDifference::parts.
+  std::vector<std::uint32_t> labels{};       ///< Of the echoes that are compared; empty = of all.
 };
 
 /// Makes the spec of a comparison. The match distance is half of the pulse's length in range,
@@ -99,8 +100,9 @@ struct FrameDifference {
     std::uint64_t num_returned{};
   };
 
-  // Only echoes of surfaces are counted: drops, flakes and fog use the same random draws on both
-  // sides and would hide the differences. Any echo of the other side may match them.
+  // Only echoes of surfaces with ComparisonSpec::labels are counted: drops, flakes and fog use the
+  // same random draws on both sides and would hide the differences. Any echo of the other side may
+  // match them.
   Matched reference_echoes;  ///< Echoes of the reference; share() is the recall.
   Matched echoes;            ///< Echoes of the other frames; share() is the precision.
   // These count all echoes, including clutter.
@@ -151,6 +153,8 @@ class FrameComparison {
   [[nodiscard]] FrameDifference Result() const;
 
  private:
+  /// Whether a slot has an echo that is compared.
+  [[nodiscard]] bool IsCompared(const Frame& frame, std::size_t slot) const;
   void AddFiring(const Frame& reference, const Frame& other, std::size_t firing);
   void AddMatched(const Frame& reference, std::size_t slot, const Frame& other, std::size_t match);
   void AddTargets(const Frame& reference, const Frame& other);

@@ -1,8 +1,10 @@
 #include "railcast/frame.h"
 
 #include <algorithm>
+#include <set>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 
 namespace railcast {
 
@@ -36,6 +38,22 @@ std::uint32_t LabelTable::Id(std::string_view name) const {
     throw InputError({{"/labels", "the table must hold \"" + std::string(name) + '"', ""}});
   }
   return label->id;
+}
+
+std::vector<std::uint32_t> LabelTable::Ids(const std::vector<std::string>& names,
+                                           const std::string& pointer) const {
+  std::set<std::uint32_t> ids;
+  ErrorList errors;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (const Label* const label = Find(names[i])) {
+      ids.insert(label->id);
+    } else {
+      errors.Add({pointer + '/' + std::to_string(i), "must be in the label table",
+                  '"' + ShownText(names[i]) + '"'});
+    }
+  }
+  errors.ThrowIfAny();
+  return {ids.begin(), ids.end()};
 }
 
 }  // namespace railcast

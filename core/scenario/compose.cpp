@@ -64,6 +64,7 @@ void CheckOutput(const ScenarioSpec& spec, ErrorList& errors) {
 // Labels and materials that the effects, as opposed to the world, look up by name.
 struct EffectNamesInUse {
   ClutterLabels labels;
+  std::vector<std::vector<std::uint32_t>> footprint_labels;  ///< By sensor.
   std::uint16_t snow_material{};
 };
 
@@ -73,10 +74,19 @@ std::optional<EffectNamesInUse> TryNames(const ScenarioSpec& spec, ErrorList& er
     // Conflicts between effects are reported where the effects are read.
     const EffectSet effects = SwitchedEffects(spec);
     EffectNamesInUse names;
+    ErrorList unknown;
+    const auto ids_of = [&](const std::vector<std::string>& classes, const std::string& pointer) {
+      const auto ids = Attempt("", unknown, [&] { return labels.Ids(classes, pointer); });
+      return ids.value_or(std::vector<std::uint32_t>{});
+    };
     // Sensors differ in the labels that they need, not in the identifiers of these.
     for (const SensorPlace& sensor : SensorsOf(spec)) {
       names.labels = ClutterLabelsOf(labels, DetectorSpecOf(spec, sensor.lidar, effects));
+      names.footprint_labels.push_back(
+          ids_of(sensor.lidar.beam.footprint_of, sensor.pointer + "/beam/footprint_of"));
     }
+    ids_of(spec.tolerance.of, "/tolerance/of");
+    unknown.ThrowIfAny();
     if (spec.weather.snow_cover > 0.0) {
       names.snow_material = MaterialLibrary(spec.materials).Index("snow");
     }
@@ -175,6 +185,7 @@ std::vector<std::unique_ptr<Simulator>> MakeSimulators(const ScenarioSpec& spec,
                               .has_full_detail = spec.world.detail == SceneDetail::kFull,
                               .isa = isa};
       simulator.detector.clutter_labels = names->labels;
+      simulator.detector.footprint_labels = names->footprint_labels[i];
       const std::size_t num_firings = patterns[i]->num_firings();
       const auto doing = [&] {
         return "making the simulator of " + std::to_string(num_firings) + " firings a frame";

@@ -131,6 +131,9 @@ void Describe(Archive& a, BeamSpec& s) {
       "footprint_rays", s.footprint_rays,
       "Sub-rays per beam of effect footprint. For fidelity auto, the most that it may choose.",
       OneNumberOf({16, 64}));
+  a.Optional("footprint_of", s.footprint_of,
+             "With effect footprint, only beams that may meet these classes have a width; each is "
+             "the name of a label. Empty = every beam has one.");
 }
 
 void Describe(Archive& a, ReceiverSpec& s) {

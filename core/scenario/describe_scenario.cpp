@@ -105,6 +105,9 @@ void Describe(Archive& a, ToleranceSpec& s) {
              "Missed share of the reference's echoes of wires.", Within(0, 1));
   a.Optional("intensity", s.intensity, "Median relative error of the echoes' intensities.",
              Within(0, 1e6));
+  a.Optional("of", s.of,
+             "Classes, by the names of their labels, whose echoes are compared; beams that cannot "
+             "meet them have no width. Empty = all.");
 }
 
 void Describe(Archive& a, OutputSpec& s) {

@@ -92,6 +92,11 @@ void FrameScene::CastBeam(BeamRays& beam) const {
   if (moving != nullptr) moving->CastBeam(beam);
 }
 
+bool FrameScene::NeedsWidth(const BeamRays& beam) const {
+  return wide.empty() ||
+         std::ranges::any_of(wide, [&](const BeamScenes& scenes) { return MayMeet(scenes, beam); });
+}
+
 void FrameScene::CastRanges(RayTile& rays) const {
   window->scene->CastRanges(rays);
   if (moving != nullptr) moving->CastRanges(rays);
@@ -182,6 +187,10 @@ std::unique_ptr<const FrameScene> FrameScenes::MakeScene(const BegunFrame& begun
   }
   scene.poses = PosesIn(window->window_from_world, stamp_ns);
   scene.window = window;
+  if (!footprint_labels_.empty()) {
+    scene.wide.push_back(window->scene->OnlyLabels(footprint_labels_));
+    if (scene.moving != nullptr) scene.wide.push_back(scene.moving->OnlyLabels(footprint_labels_));
+  }
   return made;
 }
 

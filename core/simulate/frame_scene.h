@@ -14,6 +14,7 @@
 #include "core/simulate/frame_poses.h"
 #include "core/simulate/scene_store.h"
 #include "core/simulate/window.h"
+#include "core/trace/beam_tree.h"
 #include "core/trace/trace_scene.h"
 #include "railcast/ray_caster.h"
 #include "railcast/scene.h"
@@ -50,6 +51,8 @@ struct FrameScene final : public RayCaster {
   /// The objects among them, by index into World::objects(), of the first placements of `moving`,
   /// which are figures and pieces.
   std::vector<std::size_t> moving_objects;
+  /// What of both needs beams with a width, if that is not all.
+  std::vector<BeamScenes> wide;
   FramePoses poses;  ///< Poses of the sensor in the window frame.
   /// Surfaces of the window, of objects that windows do not know, and of what sways if it has its
   /// own; empty if there are none of these.
@@ -68,6 +71,7 @@ struct FrameScene final : public RayCaster {
 
   void Cast(RayTile& rays) const override;
   void CastBeam(BeamRays& beam) const override;
+  [[nodiscard]] bool NeedsWidth(const BeamRays& beam) const override;
   void CastRanges(RayTile& rays) const;
 };
 
@@ -123,7 +127,11 @@ class FrameScenes {
   void UseTexture(bool has_texture) { has_texture_ = has_texture; }
 
   /// Has windows prepared for casting beams.
-  void UseBeams() { store_->UseBeams(); }
+  /// @param labels DetectorSpec::footprint_labels from now on.
+  void UseBeams(const std::vector<std::uint32_t>& labels = {}) {
+    store_->UseBeams(labels);
+    footprint_labels_ = labels;
+  }
 
   /// Begins a frame. Waits for its window if necessary, and starts preparing the next.
   [[nodiscard]] BegunFrame Begin(std::uint32_t index, std::int64_t stamp_ns);
@@ -224,6 +232,7 @@ class FrameScenes {
   Wind wind_;
   bool has_motion_ = false;
   bool has_texture_ = false;
+  std::vector<std::uint32_t> footprint_labels_;
   std::shared_ptr<const World> world_;
   std::vector<Object> objects_;  // In the order of world_->objects().
   /// Index in world_->objects() of each object in the windows, by its index in the store's world.

@@ -98,6 +98,16 @@ void SceneStore::ForgetUnusedModels() {
   std::erase_if(models_, [](const auto& entry) { return entry.second.first.use_count() == 1; });
 }
 
+void SceneStore::UseBeams(const std::vector<std::uint32_t>& labels) {
+  const std::scoped_lock lock(labels_of_beams_mutex_);
+  labels_of_beams_.insert(labels);
+}
+
+std::set<std::vector<std::uint32_t>> SceneStore::labels_of_beams() const {
+  const std::scoped_lock lock(labels_of_beams_mutex_);
+  return labels_of_beams_;
+}
+
 SceneStore::StoredObject SceneStore::MakeObject(const SceneObject& object) {
   StoredObject stored{{}, {}, RadiusAboutOrigin(*object.model)};
   std::vector<TracePiece> pieces;

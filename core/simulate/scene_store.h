@@ -1,12 +1,12 @@
 #pragma once
 
-#include <atomic>
 #include <compare>
 #include <cstdint>
 #include <future>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -59,8 +59,10 @@ class SceneStore {
   [[nodiscard]] StoredObject MakeObject(const SceneObject& object);
 
   /// Called when a simulator is going to cast beams: windows are prepared for it from now on.
-  void UseBeams() { uses_beams_ = true; }
-  [[nodiscard]] bool uses_beams() const { return uses_beams_; }
+  /// @param labels As FrameScenes::UseBeams().
+  void UseBeams(const std::vector<std::uint32_t>& labels);
+  /// All sets of labels that beams are cast with.
+  [[nodiscard]] std::set<std::vector<std::uint32_t>> labels_of_beams() const;
 
   [[nodiscard]] Surface MakeSurface(const Part& part, std::uint32_t instance, bool is_ego) const;
   /// Whether any of the surfaces has a texture.
@@ -73,7 +75,8 @@ class SceneStore {
   std::vector<Material> materials_;
   std::shared_ptr<const Model> unit_tube_;
   TraceDevice device_;
-  std::atomic<bool> uses_beams_ = false;
+  mutable std::mutex labels_of_beams_mutex_;
+  std::set<std::vector<std::uint32_t>> labels_of_beams_;
 
   struct ChunkEntry {
     std::weak_ptr<const BuiltChunk> built;

@@ -132,7 +132,7 @@ Detection::Detection(const SimulatorSpec& spec,
 
 void Simulator::Parts::UseSpec() {
   own.emplace(spec, materials, pattern);
-  if (own->tracer->casts_beams()) scenes.UseBeams();
+  if (own->tracer->casts_beams()) scenes.UseBeams(spec.detector.footprint_labels);
   const DetectorSpec& detector = spec.detector;
   scenes.UseWind(Wind(WindVelocity_mps(detector.weather), detector.air_seed));
   scenes.UseMotion(detector.velocity.has_value());

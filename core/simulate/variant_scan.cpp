@@ -19,6 +19,7 @@ void Simulator::Parts::MakeOthers() {
     SimulatorSpec varied = spec;
     varied.detector.effects = variant.effects;
     varied.detector.beam.footprint_rays = variant.footprint_rays;
+    if (!variant.has_footprint_of) varied.detector.footprint_labels.clear();
     others.emplace_back(varied, materials, pattern);
     // What meets a beam from beside it is found by the beams around it, which are not traced here.
     others.back().halo.reset();
@@ -31,7 +32,9 @@ void Simulator::UseVariants(std::vector<FiringVariant> variants) {
   parts.others.clear();
   parts.MakeOthers();
   const auto casts_beams = [](const Detection& by) { return by.tracer->casts_beams(); };
-  if (std::ranges::any_of(parts.others, casts_beams)) parts.scenes.UseBeams();
+  if (std::ranges::any_of(parts.others, casts_beams)) {
+    parts.scenes.UseBeams(parts.spec.detector.footprint_labels);
+  }
 }
 
 void Simulator::ScanFirings(BegunFrame& begun,

@@ -291,7 +291,10 @@ std::shared_ptr<const Window> WindowSource::Build(int home_chunk,
   AddChunks(chunks, GetModels(home_chunk, chunks, choice, pace), purpose.wind_blows, *window,
             placements);
   window->scene = std::make_unique<TraceScene>(store_->device(), placements);
-  if (store_->uses_beams()) window->scene->PrepareBeams();
+  for (const std::vector<std::uint32_t>& labels : store_->labels_of_beams()) {
+    window->scene->PrepareBeams();
+    if (!labels.empty()) static_cast<void>(window->scene->OnlyLabels(labels));
+  }
   progress(num_steps, num_steps);
   KeepChunks(home_chunk, std::move(chunks));
   store_->ForgetUnusedModels();

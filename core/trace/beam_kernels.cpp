@@ -10,7 +10,7 @@ namespace railcast::RAILCAST_ISA {
 BeamKernel MakeBeamKernel();
 
 BeamKernel MakeBeamKernel() {
-  return {.isa = RAILCAST_ISA_NAME, .trace = &TraceBeam};
+  return {.isa = RAILCAST_ISA_NAME, .trace = &TraceBeam, .may_meet = &MayMeetBeam};
 }
 
 }  // namespace railcast::RAILCAST_ISA

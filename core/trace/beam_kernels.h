@@ -12,6 +12,8 @@ namespace railcast {
 struct BeamKernel {
   std::string_view isa;
   void (*trace)(const BeamScene& scene, BeamRays& beam);
+  /// MayMeet() (trace_scene.h) of one scene, whatever the mask.
+  bool (*may_meet)(const BeamScene& scene, const BeamRays& beam);
 };
 
 /// The kernels that this machine can run, the fastest last.

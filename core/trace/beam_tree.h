@@ -66,4 +66,10 @@ struct BeamScene {
   const BeamInstance* instances{};
 };
 
+/// The same for what is no wire, and for wires.
+struct BeamScenes {
+  BeamScene solid;
+  BeamScene wires;
+};
+
 }  // namespace railcast

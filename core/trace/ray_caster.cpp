@@ -39,4 +39,8 @@ void RayCaster::CastBeam(BeamRays& beam) const {
   }
 }
 
+bool RayCaster::NeedsWidth(const BeamRays& /*beam*/) const {
+  return true;
+}
+
 }  // namespace railcast

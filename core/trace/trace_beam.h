@@ -197,6 +197,44 @@ constexpr std::uint32_t kCrowd = 96;
   return is_changed;
 }
 
+/// Places an instance at the time of a beam, unless it moves and the beam's cone in the window
+/// frame does not come near it before `far`. Returns whether it may be met.
+[[nodiscard]] inline bool PlaceInstance(const BeamInstance& instance,
+                                        const Cone& window_cone,
+                                        float shutter,
+                                        float far,
+                                        InstancePlace& place) {
+  if (instance.num_steps == 1) {
+    place = {instance.window_from_model[0], instance.model_from_window};
+    return true;
+  }
+  const BetweenSteps steps = StepsAt(instance, shutter);
+  if (!MayMeetMoving(instance, steps, window_cone, far)) return false;
+  place = PlaceAt(instance, steps);
+  return true;
+}
+
+/// The beam's cone in the frame of a placed model, with so much of its semi-axes.
+inline void TurnIntoModel(const BeamInstance& instance,
+                          const Rows& model_from_window,
+                          const BeamRays& beam,
+                          float part,
+                          ModelBeam& model) {
+  Cone& cone = model.cone;
+  Turn(model_from_window, beam.origin, cone.origin);
+  for (int i = 0; i < 3; ++i) cone.origin[i] += model_from_window.m[4 * i + 3];
+  Turn(model_from_window, beam.axis, cone.axis);
+  Turn(model_from_window, beam.half_h, cone.half_h);
+  Turn(model_from_window, beam.half_v, cone.half_v);
+  for (int i = 0; i < 3; ++i) {
+    cone.half_h[i] *= part;
+    cone.half_v[i] *= part;
+  }
+  FinishCone(cone);
+  if (instance.is_stretched) WidenStretchedCone(cone);
+  FillLanes(cone, model.lanes);
+}
+
 /// Traces the beam through one instance.
 /// @param window_cone The beam's in the window frame.
 /// @param far The farthest range among the sub-rays; lowered where they hit.
@@ -206,28 +244,9 @@ inline void TraceInstance(const BeamInstance& instance,
                           BeamRays& beam,
                           float& far) {
   InstancePlace place;
-  if (instance.num_steps == 1) {
-    place = {instance.window_from_model[0], instance.model_from_window};
-  } else {
-    const BetweenSteps steps = StepsAt(instance, beam.shutter);
-    if (!MayMeetMoving(instance, steps, window_cone, far)) return;
-    place = PlaceAt(instance, steps);
-  }
-  const Rows& model_from_window = place.model_from_window;
+  if (!PlaceInstance(instance, window_cone, beam.shutter, far, place)) return;
   ModelBeam model;
-  Cone& cone = model.cone;
-  Turn(model_from_window, beam.origin, cone.origin);
-  for (int i = 0; i < 3; ++i) cone.origin[i] += model_from_window.m[4 * i + 3];
-  Turn(model_from_window, beam.axis, cone.axis);
-  Turn(model_from_window, beam.half_h, cone.half_h);
-  Turn(model_from_window, beam.half_v, cone.half_v);
-  for (int i = 0; i < 3; ++i) {
-    cone.half_h[i] *= places.part;
-    cone.half_v[i] *= places.part;
-  }
-  FinishCone(cone);
-  if (instance.is_stretched) WidenStretchedCone(cone);
-  FillLanes(cone, model.lanes);
+  TurnIntoModel(instance, place.model_from_window, beam, places.part, model);
   const InstanceSurface surface{place.window_from_model, instance.first_surface};
   for (Stack stack(instance.root); !stack.empty();) {
     const Stack::Entry top = stack.Pop();
@@ -284,6 +303,53 @@ inline void TraceBeam(const BeamScene& scene, BeamRays& beam) {
     stack.PushSorted(node, children, distances.entry);
   }
   if (beam.num_facets > num_facets) DropHiddenFacets(beam);
+}
+
+/// Whether the beam's cone may meet a triangle of an instance nearer than `far`.
+[[nodiscard]] inline bool MayMeetInstance(const BeamInstance& instance,
+                                          const Cone& window_cone,
+                                          const BeamRays& beam,
+                                          float far) {
+  InstancePlace place;
+  if (!PlaceInstance(instance, window_cone, beam.shutter, far, place)) return false;
+  ModelBeam model;
+  TurnIntoModel(instance, place.model_from_window, beam, 1.0F, model);
+  ChildDistances distances;
+  LeafProducts products;
+  for (Stack stack(instance.root); !stack.empty();) {
+    const TreePointer top = stack.Pop().pointer;
+    if (IsLeaf(top)) {
+      if ((TrianglesMet(LeafAt(top), model.lanes, far, products) & PlacesInUse(top)) != 0) {
+        return true;
+      }
+      continue;
+    }
+    const BeamNode& node = NodeAt(top);
+    stack.PushSorted(node, ChildrenMet(node, model.lanes, far, distances) & PlacesInUse(top),
+                     distances.entry);
+  }
+  return false;
+}
+
+/// As BeamKernel::may_meet says.
+[[nodiscard]] inline bool MayMeetBeam(const BeamScene& scene, const BeamRays& beam) {
+  if (scene.root == 0) return false;
+  const float far = beam.range_m[0];
+  const Cone cone = ConeOf(beam, 1.0F);
+  ConeLanes lanes;
+  FillLanes(cone, lanes);
+  ChildDistances distances;
+  for (Stack stack(scene.root); !stack.empty();) {
+    const TreePointer top = stack.Pop().pointer;
+    if (IsLeaf(top)) {
+      if (MayMeetInstance(scene.instances[top >> kNumShift], cone, beam, far)) return true;
+      continue;
+    }
+    const BeamNode& node = NodeAt(top);
+    stack.PushSorted(node, ChildrenMet(node, lanes, far, distances) & PlacesInUse(top),
+                     distances.entry);
+  }
+  return false;
 }
 
 }  // namespace railcast::RAILCAST_ISA

@@ -3,9 +3,11 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -98,6 +100,7 @@ struct TraceDevice::Handle {
 /// What is needed to read a part's triangles back from Embree.
 struct PartSize {
   std::size_t num_triangles{};
+  std::uint32_t label{};
   bool is_wire{};
 };
 
@@ -107,6 +110,9 @@ struct BeamTrees {
   BeamTree solid;
   BeamTree wires;
 };
+
+/// The labels of the surfaces that trees are made of; nothing = all surfaces.
+using LabelsOfBeams = std::optional<std::vector<std::uint32_t>>;
 
 /// Embree's scene of a model, and its trees for beams.
 struct TraceModel::Handle {
@@ -127,13 +133,13 @@ struct TraceModel::Handle {
 
   /// The trees for beams. They are built when they are first needed, with triangles read back from
   /// Embree.
-  [[nodiscard]] const BeamTrees& beam_trees() const;
+  [[nodiscard]] const BeamTrees& beam_trees(const LabelsOfBeams& labels) const;
   /// For WithinMemory: "building "wagon" for ray tracing (3120 triangles)".
   [[nodiscard]] std::string Doing() const;
 
  private:
-  mutable std::once_flag beam_trees_once_;
-  mutable BeamTrees beam_trees_;
+  mutable std::mutex beam_trees_mutex_;
+  mutable std::map<LabelsOfBeams, BeamTrees> beam_trees_;
 };
 
 struct ReleaseGeometry {

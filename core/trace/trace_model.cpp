@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/text.h"
@@ -47,14 +48,22 @@ void AttachPart(RTCDevice device, RTCScene scene, const Part& part, unsigned geo
   rtcAttachGeometryByID(scene, geometry, geometry_id);
 }
 
+bool HasLabel(const PartSize& part, const LabelsOfBeams& labels) {
+  if (!labels || std::ranges::find(*labels, part.label) != labels->end()) return true;
+  // The tube that stands for any wire in the wind has none.
+  return part.is_wire && part.label == 0;
+}
+
 // The triangles of the wires, or of all else, in an Embree scene that AttachPart() has filled, with
 // the parts they belong to.
 std::vector<BeamTriangle> TrianglesOf(RTCScene scene,
                                       const std::vector<PartSize>& parts,
+                                      const LabelsOfBeams& labels,
                                       bool are_wires) {
   std::vector<BeamTriangle> triangles;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     if (parts[p].num_triangles == 0 || parts[p].is_wire != are_wires) continue;
+    if (!HasLabel(parts[p], labels)) continue;
     RTCGeometry geometry = rtcGetGeometry(scene, static_cast<unsigned>(p));
     const auto* const vertices =
         static_cast<const Corner*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0));
@@ -92,15 +101,17 @@ std::string TraceModel::Handle::Doing() const {
          " triangles)";
 }
 
-const BeamTrees& TraceModel::Handle::beam_trees() const {
-  std::call_once(beam_trees_once_, [this] {
-    const auto doing = [this] { return Doing() + " in beams"; };
-    BuildWithEmbree(device->device, doing, [this] {
-      beam_trees_.solid = BuildModelTree(device->device, TrianglesOf(scene, parts, false));
-      beam_trees_.wires = BuildModelTree(device->device, TrianglesOf(scene, parts, true));
-    });
+const BeamTrees& TraceModel::Handle::beam_trees(const LabelsOfBeams& labels) const {
+  const std::scoped_lock lock(beam_trees_mutex_);
+  const auto known = beam_trees_.find(labels);
+  if (known != beam_trees_.end()) return known->second;
+  BeamTrees trees;
+  const auto doing = [this] { return Doing() + " in beams"; };
+  BuildWithEmbree(device->device, doing, [&] {
+    trees.solid = BuildModelTree(device->device, TrianglesOf(scene, parts, labels, false));
+    trees.wires = BuildModelTree(device->device, TrianglesOf(scene, parts, labels, true));
   });
-  return beam_trees_;
+  return beam_trees_.emplace(labels, std::move(trees)).first->second;
 }
 
 TraceModel::TraceModel(const TraceDevice& device, const Model& model, bool is_passable)
@@ -110,7 +121,7 @@ TraceModel::TraceModel(const TraceDevice& device, const Model& model, bool is_pa
   handle_->is_foliage = model.is_foliage;
   handle_->sphere = SphereAround(model);
   for (const Part& part : model.parts) {
-    handle_->parts.push_back({part.mesh.triangles.size(), part.is_wire});
+    handle_->parts.push_back({part.mesh.triangles.size(), part.label, part.is_wire});
   }
   RTCDevice const embree = handle_->device->device;
   const auto doing = [&] { return handle_->Doing(); };

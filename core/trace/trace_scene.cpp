@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -89,6 +91,8 @@ struct TraceScene::Parts {
   };
   /// They are built, with the models' trees, when they are first needed.
   [[nodiscard]] const BeamParts& beams() const;
+  /// Likewise, of surfaces with these labels.
+  [[nodiscard]] const BeamParts& beams_of(const std::vector<std::uint32_t>& labels) const;
 
  private:
   /// A model and its places, as beams need them.
@@ -99,13 +103,15 @@ struct TraceScene::Parts {
     std::uint32_t num_steps{};
   };
   [[nodiscard]] std::vector<BeamPlace> BeamPlaces() const;
-  void BuildBeams(const std::vector<BeamPlace>& places,
-                  BeamTree BeamTrees::*tree_of,
-                  Beams& beams) const;
+  [[nodiscard]] BeamParts BuildBeams(const LabelsOfBeams& labels) const;
+  void BuildBeams(const LabelsOfBeams& labels, BeamTree BeamTrees::*tree_of, Beams& beams) const;
 
   mutable std::once_flag beams_once_;
   mutable std::vector<Rows> figure_steps_;  ///< Places of their pieces, for beams.
+  mutable std::vector<BeamPlace> beam_places_;
   mutable BeamParts beams_;
+  mutable std::mutex beams_by_labels_mutex_;
+  mutable std::map<std::vector<std::uint32_t>, BeamParts> beams_by_labels_;
 };
 
 void TraceScene::Parts::AttachFigures(TraceFigures those) {
@@ -242,17 +248,17 @@ std::vector<TraceScene::Parts::BeamPlace> TraceScene::Parts::BeamPlaces() const 
   return places;
 }
 
-void TraceScene::Parts::BuildBeams(const std::vector<BeamPlace>& places,
+void TraceScene::Parts::BuildBeams(const LabelsOfBeams& labels,
                                    BeamTree BeamTrees::*tree_of,
                                    Beams& beams) const {
   std::size_t num_moving_boxes = 0;
-  for (const BeamPlace& place : places) {
+  for (const BeamPlace& place : beam_places_) {
     num_moving_boxes += place.num_steps > 1 ? place.num_steps : 0;
   }
   beams.moving_boxes.reserve(num_moving_boxes);  // They are pointed to.
   std::vector<Eigen::AlignedBox3f> boxes;
-  for (const BeamPlace& place : places) {
-    const BeamTree& tree = place.model->handle().beam_trees().*tree_of;
+  for (const BeamPlace& place : beam_places_) {
+    const BeamTree& tree = place.model->handle().beam_trees(labels).*tree_of;
     Eigen::AlignedBox3f& box = boxes.emplace_back();
     const BeamBox* const first_box = beams.moving_boxes.data() + beams.moving_boxes.size();
     for (std::uint32_t step = 0; step < place.num_steps; ++step) {
@@ -276,21 +282,35 @@ void TraceScene::Parts::BuildBeams(const std::vector<BeamPlace>& places,
   beams.scene = {beams.tree.root(), beams.instances.data()};
 }
 
+TraceScene::Parts::BeamParts TraceScene::Parts::BuildBeams(const LabelsOfBeams& labels) const {
+  // Isolated, so that a thread that waits here does not take up a tile of the frame that needs this
+  // scene.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, beam_places_.size(), [&](std::size_t i) {
+      static_cast<void>(beam_places_[i].model->handle().beam_trees(labels));
+    });
+  });
+  BeamParts parts;
+  BuildBeams(labels, &BeamTrees::solid, parts.solid);
+  BuildBeams(labels, &BeamTrees::wires, parts.wires);
+  return parts;
+}
+
 const TraceScene::Parts::BeamParts& TraceScene::Parts::beams() const {
   std::call_once(beams_once_, [this] {
-    // Isolated, so that a thread that waits here does not take up a tile of the frame that needs
-    // this scene.
-    const std::vector<BeamPlace> places = BeamPlaces();
-    tbb::this_task_arena::isolate([&places] {
-      tbb::parallel_for(std::size_t{0}, places.size(), [&places](std::size_t i) {
-        static_cast<void>(places[i].model->handle().beam_trees());
-      });
-    });
-    beams_ = {};
-    BuildBeams(places, &BeamTrees::solid, beams_.solid);
-    BuildBeams(places, &BeamTrees::wires, beams_.wires);
+    beam_places_ = BeamPlaces();
+    beams_ = BuildBeams(std::nullopt);
   });
   return beams_;
+}
+
+const TraceScene::Parts::BeamParts& TraceScene::Parts::beams_of(
+    const std::vector<std::uint32_t>& labels) const {
+  static_cast<void>(beams());  // Which finds the places.
+  const std::scoped_lock lock(beams_by_labels_mutex_);
+  const auto known = beams_by_labels_.find(labels);
+  if (known != beams_by_labels_.end()) return known->second;
+  return beams_by_labels_.emplace(labels, BuildBeams(labels)).first->second;
 }
 
 void TraceScene::CastBeam(BeamRays& beam) const {
@@ -305,6 +325,17 @@ void TraceScene::CastBeamWith(const BeamKernel& kernel, BeamRays& beam) const {
 
 void TraceScene::PrepareBeams() const {
   static_cast<void>(parts_->beams());
+}
+
+BeamScenes TraceScene::OnlyLabels(const std::vector<std::uint32_t>& labels) const {
+  const Parts::BeamParts& beams = parts_->beams_of(labels);
+  return {beams.solid.scene, beams.wires.scene};
+}
+
+bool MayMeet(const BeamScenes& scenes, const BeamRays& beam) {
+  const BeamKernel& kernel = AvailableBeamKernels().back();
+  return ((beam.mask & ~kWireSurfaces) != 0 && kernel.may_meet(scenes.solid, beam)) ||
+         ((beam.mask & kWireSurfaces) != 0 && kernel.may_meet(scenes.wires, beam));
 }
 
 void TraceScene::Parts::StoreHits(const RTCRayHit16& packet,

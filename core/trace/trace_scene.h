@@ -14,6 +14,7 @@
 namespace railcast {
 
 struct BeamKernel;
+struct BeamScenes;
 
 /// Owns the Embree device. Each acceleration structure is built by a single thread, so that it does
 /// not depend on the number of threads of a run.
@@ -106,6 +107,9 @@ class TraceScene final : public RayCaster {
   void CastBeamWith(const BeamKernel& kernel, BeamRays& beam) const;
   /// Builds what the first CastBeam() would build.
   void PrepareBeams() const;
+  /// What MayMeet() looks at: the surfaces with these labels. Built on the first call with them;
+  /// lasts as long as the scene. Thread-safe.
+  [[nodiscard]] BeamScenes OnlyLabels(const std::vector<std::uint32_t>& labels) const;
 
   /// Finds all placements that rays of the packet beginning at `first` hit within range, whatever
   /// stands before them. Replaces `hits`, whose order says nothing.
@@ -120,5 +124,10 @@ class TraceScene final : public RayCaster {
   struct Parts;
   std::unique_ptr<const Parts> parts_;
 };
+
+/// Whether a surface that the beam's mask leaves in may lie within the ellipse of its sub-rays,
+/// whatever stands before it, nearer than the `range_m` of the first one. False only if no ray in
+/// the ellipse can meet any. No directions of sub-rays are needed.
+[[nodiscard]] bool MayMeet(const BeamScenes& scenes, const BeamRays& beam);
 
 }  // namespace railcast

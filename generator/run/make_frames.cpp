@@ -289,7 +289,10 @@ CertifySpec CertifySpecOf(const ScenarioSpec& scenario,
   for (const SceneObject& object : world.objects()) {
     spec.objects.emplace(object.instance, object.name);
   }
-  if (scenario.fidelity == Fidelity::kAuto) spec.tolerance = scenario.tolerance;
+  if (scenario.fidelity == Fidelity::kAuto) {
+    spec.tolerance = scenario.tolerance;
+    spec.tolerance_labels = LabelTable(scenario.labels).Ids(scenario.tolerance.of, "/tolerance/of");
+  }
   return spec;
 }
 

@@ -64,6 +64,17 @@ printf '{"version": 1, "file": "%s", "weather": "%s", "fidelity": "footprint", "
 fewer="$(count footprint_16)"
 echo "$fewer: 64 sub-rays cost $((${all#* } - ${fewer#* })) more"
 
+# of CLASSES: prints those where only beams have a width that may meet them (core/fidelity/effect_search.h).
+of() {
+  printf '{"version": 1, "file": "%s", "weather": "%s", "fidelity": "footprint", "lidar": %s}\n' \
+    "$scenario" "$weather" \
+    "{\"file\": \"$PWD/scenarios/sensors/vir2rail.json\", \"mount\": {\"position_m\": [2.2, 0, 2.5]},
+      \"beam\": {\"divergence_mrad\": [3.0, 1.5], \"footprint_of\": [$1]}}" >"$work/scenario.json"
+  count "footprint_of $1"
+}
+of '"derailer"'  # There is none.
+of '"rail", "mast", "cantilever", "contact_wire", "messenger_wire", "dropper", "signal", "cable_trough"'
+
 sensor clean ""
 sensor dirt '"cover": {"dirt_coverage": 0.1}'
 sensor drops '"cover": {"drop_coverage": 0.1}'

@@ -236,8 +236,8 @@ TEST(FrontierRows, CanBeChosenAndKeepTheRawTrace) {
 TEST(FrontierRows, AreNamedWhereOneIsUnknown) {
   EXPECT_EQ(MessageOf([&] { static_cast<void>(ChooseFrontierRows("surface,best")); }),
             "--rows: must be all, or of raw_trace geometry plausibility surface "
-            "surface+thin_conductors footprint-thin_conductors footprint_16 footprint auto "
-            "surface+thin_conductors+auto_detail footprint_16+auto_detail "
+            "surface+thin_conductors footprint-thin_conductors footprint_of footprint_16 "
+            "footprint auto surface+thin_conductors+auto_detail footprint_16+auto_detail "
             "footprint+auto_detail brute_force_4 brute_force_7 brute_force_19 brute_force_64 "
             "reference_16 "
             "reference_64 reference_256 (got best)");
@@ -248,11 +248,28 @@ TEST(FrontierRows, TakeWhatFidelityAutoChooses) {
   FidelityChoice choice;
   choice.effects = EffectsOfRung(Fidelity::kSurface);
   choice.footprint_rays = 16;
-  UseChoice(choice, rows);
+  choice.footprint_of = {"person"};
+  UseChoice(choice, LabelTable({{4, "ground", {}, {}, {}, 0, 0}, {13, "person", {}, {}, {}, 0, 0}}),
+            rows);
   EXPECT_EQ(SpecOfRow(rows[1], {}).detector.effects, EffectsOfRung(Fidelity::kFootprint));
   EXPECT_EQ(SpecOfRow(rows[1], {}).detector.beam.footprint_rays, 64);
   EXPECT_EQ(SpecOfRow(rows[2], {}).detector.effects, EffectsOfRung(Fidelity::kSurface));
   EXPECT_EQ(SpecOfRow(rows[2], {}).detector.beam.footprint_rays, 16);
+  EXPECT_THAT(SpecOfRow(rows[1], {}).detector.footprint_labels, IsEmpty());
+  EXPECT_THAT(SpecOfRow(rows[2], {}).detector.footprint_labels, ElementsAre(13));
+}
+
+TEST(FrontierRows, GiveBeamsAWidthThatMayMeetThingsUnlessClassesAreAskedFor) {
+  const LabelTable labels({{13, "person", {}, {}, {}, 0, 0},
+                           {4, "ground", {}, {}, {}, 0, 0},
+                           {10, "mast", {}, {}, {}, 0, 0}});
+  std::vector<FrontierRow> rows = ChooseFrontierRows("footprint_of");
+  FidelityChoice choice;
+  UseChoice(choice, labels, rows);
+  EXPECT_THAT(rows[1].footprint_labels, ElementsAre(10, 13));
+  choice.footprint_of = {"person"};
+  UseChoice(choice, labels, rows);
+  EXPECT_THAT(rows[1].footprint_labels, ElementsAre(13));
 }
 
 TEST(SpecOfRow, GivesThePublishedModelThePhysicalThreshold) {

@@ -18,6 +18,7 @@ constexpr std::size_t kMostPlanesOfCloserLook = 40;
 constexpr std::size_t kMostRaysOnThin = 64;
 // In place of the index of a surface.
 constexpr std::uint32_t kSeveralPlanes = 0xFFFFFFFFU;
+constexpr std::uint32_t kNotTraced = 0xFFFFFFFEU;
 
 // A share of the beam is known to about this many sub-rays.
 constexpr float kShareError = 3.0F;
@@ -59,6 +60,17 @@ void FacetParts::Aim(const WideBeams& beams, std::size_t lane, const BeamSubRays
   beam_.missed_m = std::numeric_limits<float>::infinity();
   beam_.num_facets = 1;
   beam_.facets[0] = {};
+}
+
+bool FacetParts::NeedsWidth(const WideBeams& beams, std::size_t lane) {
+  // The ellipse of the pattern that reaches farthest.
+  const bool is_sparse = spec_.beam.footprint_rays < static_cast<int>(kNumSubRays);
+  const BeamSubRays& widest = is_sparse ? SubRaysOfCrowd() : SubRaysOfCloserLook();
+  SubRayAim aim = AimOfFiring(widest, beams.turns, lane);
+  aim.num = 0;
+  kernels_.aim_sub_rays(beams.rays, lane, beams.frame, aim, beam_);
+  beam_.range_m[0] = static_cast<float>(spec_.range_max_m);
+  return beams.caster.NeedsWidth(beam_);
 }
 
 void FacetParts::Cast(const WideBeams& beams, std::uint32_t firing) {
@@ -290,13 +302,19 @@ bool FacetParts::LookAcross(const WideBeams& beams,
   return true;
 }
 
-void FacetParts::Trace(const WideBeams& beams, const DetectTile& first) {
+void FacetParts::Trace(const WideBeams& beams,
+                       const DetectTile& first,
+                       const std::array<bool, kTileSize>& is_wide) {
   found_.clear();
   first_part_.fill(0);
   num_parts_.fill(0);
   share_on_nothing_.fill(0.0F);
   plane_surface_.fill(kSeveralPlanes);
   for (std::size_t lane = 0; lane < first.num_rays; ++lane) {
+    if (!is_wide[lane]) {
+      plane_surface_[lane] = kNotTraced;
+      continue;
+    }
     Aim(beams, lane, Pattern());
     Cast(beams, first.firing[lane]);
     NoteMissed(beams, lane);
@@ -317,7 +335,7 @@ void FacetParts::Trace(const WideBeams& beams, const DetectTile& first) {
   }
   Flush(beams);
   for (std::size_t lane = 0; lane < first.num_rays; ++lane) {
-    if (NeedsCloserLook(beams, lane)) LookCloser(beams, first, lane);
+    if (is_wide[lane] && NeedsCloserLook(beams, lane)) LookCloser(beams, first, lane);
   }
   Flush(beams);
 }
@@ -333,7 +351,9 @@ bool FacetParts::NeedsCenter(const WideBeams& beams, std::size_t lane) const {
 void FacetParts::Find(const WideBeams& beams, const DetectTile& first, PartLists& lists) {
   for (std::size_t lane = 0; lane < first.num_rays; ++lane) {
     const std::uint32_t surface = plane_surface_[lane];
-    if (surface == kSeveralPlanes || surface == beams.rays.surface[lane]) continue;
+    if (surface == kSeveralPlanes || surface == kNotTraced || surface == beams.rays.surface[lane]) {
+      continue;
+    }
     // The central ray meets something else, which is thin. That is rare, so that nothing was kept.
     Aim(beams, lane, Pattern());
     Cast(beams, first.firing[lane]);

@@ -100,9 +100,17 @@ class FacetParts {
  public:
   FacetParts(const DetectorSpec& spec, const Kernels& kernels);
 
+  /// Whether a beam may meet a surface of BeamSpec::footprint_of. If not, none of its sub-rays
+  /// does, nor one of a closer look.
+  [[nodiscard]] bool NeedsWidth(const WideBeams& beams, std::size_t lane);
+
   /// Traces the tile's beams.
   /// @param first The keys of the firings.
-  void Trace(const WideBeams& beams, const DetectTile& first);
+  /// @param is_wide By lane; beams that are not are left to their central rays, as if each lay on
+  ///   one plane.
+  void Trace(const WideBeams& beams,
+             const DetectTile& first,
+             const std::array<bool, kTileSize>& is_wide);
 
   /// Whether the beam may be left to its central ray, or has no part that sends light back.
   [[nodiscard]] bool NeedsCenter(const WideBeams& beams, std::size_t lane) const;
@@ -163,7 +171,7 @@ class FacetParts {
   std::array<std::size_t, kTileSize> first_part_{};  // Index into found_.
   std::array<std::uint32_t, kTileSize> num_parts_{};
   std::array<float, kTileSize> share_on_nothing_{};
-  // By lane; the surface of a beam on one plane, else kSeveralPlanes.
+  // By lane; the surface of a beam on one plane, else kSeveralPlanes or kNotTraced.
   std::array<std::uint32_t, kTileSize> plane_surface_{};
   // By lane; how near what the sub-rays have missed may be, the greatest power that it may send, or
   // 0, and that of a beam on one plane, if something may lie before it.

@@ -195,7 +195,6 @@ void Footprint::FindParts(const WideBeams& beams, const DetectTile& first) {
 }
 
 void Footprint::Trace(const WideBeams& beams, const WireSet* wires, const DetectTile& first) {
-  if (LooksAtFacets(spec_)) facet_parts_.Trace(beams, first);
   captures_.clear();
   if (wires != nullptr) {
     const BeamFrame& frame = beams.frame;
@@ -207,6 +206,22 @@ void Footprint::Trace(const WideBeams& beams, const WireSet* wires, const Detect
   }
   has_wire_.fill(false);
   for (const WireCapture& capture : captures_) has_wire_[capture.lane] = true;
+  if (!LooksAtFacets(spec_)) return;
+  ChooseWide(beams, first.num_rays);
+  facet_parts_.Trace(beams, first, is_wide_);
+}
+
+void Footprint::ChooseWide(const WideBeams& beams, std::size_t num_lanes) {
+  const std::vector<std::uint32_t>& labels = spec_.footprint_labels;
+  is_wide_.fill(labels.empty());
+  if (labels.empty()) return;
+  for (const WireCapture& capture : captures_) {
+    const std::uint32_t label = beams.table.surfaces[capture.surface].label;
+    if (std::ranges::binary_search(labels, label)) is_wide_[capture.lane] = true;
+  }
+  for (std::size_t lane = 0; lane < num_lanes; ++lane) {
+    is_wide_[lane] = is_wide_[lane] || facet_parts_.NeedsWidth(beams, lane);
+  }
 }
 
 bool Footprint::NeedsCenter(const WideBeams& beams, std::size_t lane) const {

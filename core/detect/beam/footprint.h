@@ -44,7 +44,8 @@ class SubRayParts {
 
 /// Effects `footprint`, `dense_footprint` and `thin_conductors`: turns what a beam of finite width
 /// meets (FacetParts, SubRayParts) into echoes. A beam that lies on one plane is represented by its
-/// central ray, with the spread of the whole beam.
+/// central ray, with the spread of the whole beam. So is a beam that cannot meet a surface of
+/// BeamSpec::footprint_of; what the others give does not depend on it.
 ///
 /// Effect `thin_conductors`: wires in closed form (thin_conductors.h). A wire hides its share of
 /// what lies behind it, and the surfaces in front of a wire hide it in proportion to their share of
@@ -70,6 +71,7 @@ class Footprint {
   void Resolve(const WideBeams& beams, EchoTiles& echoes);
 
  private:
+  void ChooseWide(const WideBeams& beams, std::size_t num_lanes);
   void FindParts(const WideBeams& beams, const DetectTile& first);
   void AddWires(const WideBeams& beams, const WireCapture* begin, const WireCapture* end);
   void StoreEchoes(std::size_t lane, EchoTiles& echoes) const;
@@ -81,6 +83,7 @@ class Footprint {
   PartLists lists_;
   std::vector<WireCapture> captures_;
   std::array<bool, kTileSize> has_wire_{};  // By lane.
+  std::array<bool, kTileSize> is_wide_{};   // By lane; whether a beam is traced with its width.
   std::vector<Component> beam_parts_;       // All parts of one beam, also those that send nothing.
   std::vector<Component> wires_;
   std::vector<Component> components_;  // The parts of one beam that send light back, with wires.

@@ -13,8 +13,11 @@ bool HasWidth(const DetectorSpec& spec) {
 
 std::string FootprintText(const DetectorSpec& spec) {
   const auto& divergence_mrad = spec.beam.divergence_mrad;
+  std::string of;
+  for (const std::string& name : spec.beam.footprint_of) of += (of.empty() ? "" : ", ") + name;
   return "1/e^2 width " + NumberText(divergence_mrad[0]) + " x " + NumberText(divergence_mrad[1]) +
-         " mrad, " + NumberText(spec.beam.footprint_rays) + " sub-rays";
+         " mrad, " + NumberText(spec.beam.footprint_rays) + " sub-rays" +
+         (of.empty() ? "" : " where a beam may meet " + of);
 }
 
 std::string DenseFootprintText(const DetectorSpec& spec) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "railcast/enum_names.h"
 #include "railcast/material.h"
@@ -124,6 +125,9 @@ struct BeamSpec {
   int reference_rays = 256;      ///< Sub-rays per beam of effect dense_footprint.
   /// Sub-rays per beam of effect footprint: kNumSubRays or kNumCrowdedSubRays (ray_caster.h).
   int footprint_rays = 64;
+  /// Classes, by the names of their labels. With effect footprint, a beam has a width only if it
+  /// may meet a surface of theirs; empty = every beam has one.
+  std::vector<std::string> footprint_of{};
 
   bool operator==(const BeamSpec&) const = default;
 };
@@ -317,6 +321,8 @@ struct DetectorSpec {
   std::optional<VelocitySpec> velocity{};  ///< Absent: the sensor measures none.
   WeatherSpec weather{};
   ClutterLabels clutter_labels{};
+  std::vector<std::uint32_t>
+      footprint_labels{};  ///< Of BeamSpec::footprint_of, in ascending order.
 };
 
 /// Input of a Detector from the scan pattern and from the materials.

@@ -61,6 +61,9 @@ struct FidelityChoice {
   ToleranceSpec tolerance;  ///< The scenario's, within which it was made.
   EffectSet effects;        ///< The selected effects.
   int footprint_rays{};     ///< The selected BeamSpec::footprint_rays.
+  /// BeamSpec::footprint_of: the scenario's own, or else the classes of the tolerance, whose echoes
+  /// do not depend on the width of beams that cannot meet them.
+  std::vector<std::string> footprint_of{};
   /// The scenario's own scene detail, SimulatorSpec::has_full_detail, which is not searched for.
   bool has_full_detail{};
   Deviation deviation;       ///< Deviation of `effects` on the sample frames.

@@ -43,6 +43,11 @@ class LabelTable {
   /// The id of a label.
   /// @throws InputError if the table lacks the name.
   [[nodiscard]] std::uint32_t Id(std::string_view name) const;
+  /// The ids of labels, in ascending order.
+  /// @param pointer Of the list of their names.
+  /// @throws InputError with a fault for each name that the table lacks.
+  [[nodiscard]] std::vector<std::uint32_t> Ids(const std::vector<std::string>& names,
+                                               const std::string& pointer) const;
 
  private:
   std::vector<Label> labels_;

@@ -110,6 +110,12 @@ class RayCaster {
   /// Traces the sub-rays of a beam. Must be thread-safe. This implementation passes them to Cast();
   /// a caster that exploits how close together they are can be several times faster.
   virtual void CastBeam(BeamRays& beam) const;
+
+  /// Whether any ray within the ellipse of a beam's sub-rays may meet a surface of
+  /// BeamSpec::footprint_of nearer than `range_m[0]`, whatever stands before it. Must be
+  /// thread-safe, and never false where one does; this implementation knows of none that does not.
+  /// Of the sub-rays, only the first one's range is set.
+  [[nodiscard]] virtual bool NeedsWidth(const BeamRays& beam) const;
 };
 
 }  // namespace railcast

@@ -103,6 +103,8 @@ struct ToleranceSpec {
   double false_share = 0.1;        ///< Share of the echoes that the reference lacks.
   double thin_missed_share = 0.1;  ///< Share of the reference's echoes of wires that are missing.
   double intensity = 0.1;          ///< Median relative error of matched echoes.
+  /// Classes, by the names of their labels, whose echoes are compared; empty = all echoes are.
+  std::vector<std::string> of{};
 
   bool operator==(const ToleranceSpec&) const = default;
 };

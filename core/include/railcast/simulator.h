@@ -87,6 +87,9 @@ struct FiringStory {
 struct FiringVariant {
   EffectSet effects{};
   int footprint_rays = 64;  ///< BeamSpec::footprint_rays.
+  /// Whether only those beams have a width that have one by the simulator's spec
+  /// (DetectorSpec::footprint_labels); otherwise all have.
+  bool has_footprint_of = true;
 };
 
 /// How much of an object the beams of a frame see.

@@ -52,8 +52,9 @@ LabelTable Labels() {
   return LabelTable({ground, person});
 }
 
-RunCertificate OfOneFrame(const std::optional<ToleranceSpec>& tolerance = {}) {
-  CertificateSums sums({0.01, {{"surface", {}, 0.125}}, {{7, "Ann"}}, tolerance});
+RunCertificate OfOneFrame(const std::optional<ToleranceSpec>& tolerance = {},
+                          const std::vector<std::uint32_t>& tolerance_labels = {}) {
+  CertificateSums sums({0.01, {{"surface", {}, 0.125}}, {{7, "Ann"}}, tolerance, tolerance_labels});
   sums.Add(MadeCertificate());
   return sums.Result(Labels());
 }
@@ -124,6 +125,15 @@ TEST(CertificateSums, CountFramesOfWhichTheToleranceIsKnownToHold) {
   EXPECT_EQ(OfOneFrame(between).tolerance->frames_within, 0U);
   EXPECT_EQ(OfOneFrame(between).tolerance->frames_beyond, 0U);
   EXPECT_FALSE(OfOneFrame(between).tolerance->is_within);
+}
+
+TEST(CertificateSums, HoldATolerancesClassesAgainstIt) {
+  ToleranceSpec narrow;
+  narrow.missed_share = 0.01;
+  narrow.false_share = 1.0;
+  // Of the ground, 6 of 30 echoes are missed, of persons none.
+  EXPECT_EQ(OfOneFrame(narrow, {kGroundLabel}).tolerance->frames_beyond, 1U);
+  EXPECT_EQ(OfOneFrame(narrow, {kPersonLabel}).tolerance->frames_beyond, 0U);
 }
 
 TEST(CertificateText, SaysHowMuchIsMissedAndHowManyFiringsTellIt) {

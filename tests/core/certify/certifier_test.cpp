@@ -150,6 +150,19 @@ TEST(RungsBeside, AreTheNextCheaperAndTheNextDearerOne) {
   EXPECT_THAT(names_at(Fidelity::kFootprint), ElementsAre("surface"));
 }
 
+// As fidelity `auto` chooses it for a tolerance of persons.
+TEST(RungsBeside, HaveTheFootprintOfAllBeamsBesideThatOfSome) {
+  const ScenarioSpec scenario = LineAt(Fidelity::kFootprint);
+  DetectorSpec own = DetectorSpecOf(scenario, scenario.lidar, EffectsOf(scenario));
+  own.beam.footprint_of = {"person"};
+  const std::vector<RungBeside> rungs = RungsBeside(scenario, own);
+  ASSERT_EQ(rungs.size(), 2U);
+  EXPECT_EQ(rungs[0].name, "surface");
+  EXPECT_EQ(rungs[1].name, "footprint");
+  EXPECT_FALSE(rungs[1].variant.has_footprint_of);
+  EXPECT_GT(rungs[1].cost, 2.0);
+}
+
 TEST(RungsBeside, KeepTheScenariosSwitchesWhereTheyCan) {
   ScenarioSpec scenario = LineAt(Fidelity::kSurface);
   scenario.effects["clutter"] = false;

@@ -161,6 +161,20 @@ TEST(ChooseFidelity, LeavesTheUsersSwitchesAlone) {
   EXPECT_THAT(choice.kept, Contains("thin_conductors"));
 }
 
+// Of these classes, beams without a width lose nothing: the errors are those of all beams.
+TEST(ChooseFidelity, GivesOnlyThoseBeamsAWidthThatMayMeetTheClassesOfTheTolerance) {
+  ScenarioSpec scenario = ReadLine({.more = R"("tolerance": {"of": ["mast", "rail"]},)"});
+  const FidelityChoice of_some = Choose(scenario);
+  EXPECT_THAT(of_some.footprint_of, ElementsAre("mast", "rail"));
+  EXPECT_THAT(ChoiceText(of_some), HasSubstr(" of mast and rail\n"));
+  for (const Label& label : scenario.labels) scenario.lidar.beam.footprint_of.push_back(label.name);
+  const FidelityChoice of_all = Choose(scenario);
+  EXPECT_EQ(of_some.full_deviation, of_all.full_deviation);
+  EXPECT_LT(of_some.full_deviation.missed_share, 0.5);
+  EXPECT_LT(of_some.full_instructions, OnTheLine().full_instructions);
+  EXPECT_THAT(OnTheLine().footprint_of, IsEmpty());
+}
+
 TEST(ChooseFidelity, IsTheSameAtAnyNumberOfThreads) {
   EXPECT_EQ(ChoiceJson(Choose(ReadLine({}), 1)), ChoiceJson(OnTheLine()));
 }
@@ -218,6 +232,15 @@ TEST(UseChosenFidelity, GivesTheSimulatorTheChosenEffects) {
   EXPECT_EQ(simulator->spec().detector.effects, choice.effects);
   EXPECT_EQ(simulator->spec().detector.beam.footprint_rays, choice.footprint_rays);
   EXPECT_GT(done, 0.0);
+}
+
+TEST(UseChosenFidelity, GivesTheSimulatorTheClassesOfTheTolerance) {
+  const ScenarioSpec scenario = ReadLine(
+      {.has_wires = false, .mount = kSideways, .more = R"("tolerance": {"of": ["rail"]},)"});
+  const auto simulator = MakeSimulator(scenario, 0);
+  EXPECT_THAT(simulator->spec().detector.footprint_labels, IsEmpty());
+  static_cast<void>(UseChosenFidelity(*simulator, scenario, [](double) {}));
+  EXPECT_THAT(simulator->spec().detector.footprint_labels, ElementsAre(1));
 }
 
 // Fidelity `auto` keeps its promise whatever the pattern of the beams: on the open line, what it

@@ -168,10 +168,24 @@ TEST(Deviation, MayBeBeyondWhereThatOfAllEffectsIs) {
 
 TEST(InstructionsOf, CountTheSubRaysOfTheFootprint) {
   const EffectSet footprint = EffectsOfRung(Fidelity::kFootprint);
-  EXPECT_EQ(InstructionsOf(footprint, 64) - InstructionsOf(footprint, 16),
+  const BeamSpec sparse{.footprint_rays = 16};
+  EXPECT_EQ(InstructionsOf(footprint, {}) - InstructionsOf(footprint, sparse),
             kInstructionsOfMoreSubRays);
   const EffectSet surface = EffectsOfRung(Fidelity::kSurface);
-  EXPECT_EQ(InstructionsOf(surface, 64), InstructionsOf(surface, 16));
+  EXPECT_EQ(InstructionsOf(surface, {}), InstructionsOf(surface, sparse));
+}
+
+TEST(InstructionsOf, CountTheShareOfBeamsThatHaveAWidth) {
+  const EffectSet footprint = EffectsOfRung(Fidelity::kFootprint);
+  EffectSet without = footprint;
+  without.footprint = false;
+  const BeamSpec of_persons{.footprint_of = {"person"}};
+  const double none = InstructionsOf(without, {});
+  EXPECT_EQ(InstructionsOf(without, of_persons), none);
+  EXPECT_NEAR(
+      InstructionsOf(footprint, of_persons),
+      none + kInstructionsOfChoosing + kShareOfChosen * (InstructionsOf(footprint, {}) - none),
+      1e-9);
 }
 
 // With 16 sub-rays the footprint saves no more than those cost; with 64, the others save the rest.
@@ -179,10 +193,11 @@ TEST(SavingOf, AddsUpToWhatTheFootprintCosts) {
   const EffectSet footprint = EffectsOfRung(Fidelity::kFootprint);
   EffectSet without = footprint;
   without.footprint = false;
-  const double saving = SavingOf(*FindEffect("footprint"), footprint);
-  EXPECT_EQ(saving, InstructionsOf(footprint, 16) - InstructionsOf(without, 16));
+  const BeamSpec sparse{.footprint_rays = 16};
+  const double saving = SavingOf(*FindEffect("footprint"), footprint, {});
+  EXPECT_EQ(saving, InstructionsOf(footprint, sparse) - InstructionsOf(without, sparse));
   EXPECT_EQ(saving + kInstructionsOfMoreSubRays,
-            InstructionsOf(footprint, 64) - InstructionsOf(without, 64));
+            InstructionsOf(footprint, {}) - InstructionsOf(without, {}));
 }
 
 using Sums = EchoesByRange::Sums;

@@ -85,6 +85,19 @@ TEST(FrameComparison, CountsWhatIsMissedAndWhatIsFalseByLabel) {
   EXPECT_EQ(d.echoes_per_label.at(3), (Matched{2, 0}));
 }
 
+TEST(FrameComparison, ComparesEchoesOfSomeClassesOnly) {
+  ComparisonSpec spec{0.375F, 100.0F, {kContactWire}};
+  spec.labels = {kPerson};
+  FrameComparison comparison(spec);
+  // Of the persons, one is found as what stands behind, one is missed, and one is false.
+  comparison.Add(MakeEchoFrame({{{10.0F, kPerson}}, {{20.0F, kPerson}}, {{30.0F, kGround}}}),
+                 MakeEchoFrame({{{10.1F, kGround}}, {{40.0F, kPerson}}, {{30.2F, kGround}}}, 3));
+  const FrameDifference d = comparison.Result();
+  EXPECT_EQ(d.reference_echoes, (Matched{2, 1}));
+  EXPECT_EQ(d.echoes, (Matched{1, 0}));
+  EXPECT_NEAR(d.range_m.p95, 0.1, 1e-6);
+}
+
 TEST(FrameComparison, TakesQuantilesOfMatchedEchoes) {
   Firings reference;
   Firings other;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/trace/beam_kernels.h"
+#include "core/trace/beam_tree.h"
 #include "core/trace/trace_scene.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/ray_cast.h"
@@ -194,6 +195,66 @@ TEST(TraceBeam, HitsWhatEmbreeHits) {
   EXPECT_GT(num_hits, num / 5);
   // Rays within rounding of an edge.
   EXPECT_LT(static_cast<double>(num_different), 5e-5 * static_cast<double>(num));
+}
+
+// The labels of the surfaces of Clouds, of which each odd one is of confetti and each even one of
+// wires.
+std::uint32_t LabelIn(std::uint32_t surface) {
+  return surface % 2 == 0 ? 2 : 1;
+}
+
+TEST(MayMeet, IsTrueOfEveryBeamThatHitsWhatHasTheLabel) {
+  const Clouds clouds;
+  for (const std::uint32_t label : {1U, 2U}) {
+    const BeamScenes scenes = clouds.scene().OnlyLabels({label});
+    std::size_t num_met = 0;
+    std::size_t num_hits = 0;
+    for (BeamRays& beam : BeamsAround(20'000)) {
+      beam.mask = kAllSurfaces;
+      const bool may_meet = MayMeet(scenes, beam);
+      num_met += may_meet ? 1U : 0U;
+      for (const BeamKernel& kernel : AvailableBeamKernels()) {
+        const BeamScene& of_label = label == 1 ? scenes.solid : scenes.wires;
+        EXPECT_EQ(kernel.may_meet(of_label, beam), may_meet) << kernel.isa;
+      }
+      clouds.scene().CastBeam(beam);
+      bool is_hit = false;
+      for (std::size_t i = 0; i < beam.num_rays; ++i) {
+        const std::uint32_t surface = beam.facets[beam.facet[i]].surface;
+        is_hit = is_hit || (surface != 0 && LabelIn(surface) == label);
+      }
+      num_hits += is_hit ? 1U : 0U;
+      EXPECT_TRUE(may_meet || !is_hit);
+    }
+    EXPECT_GT(num_hits, 200U);
+    // Others pass behind something else, or between sub-rays.
+    EXPECT_LT(num_met, 20'000U) << label;
+  }
+}
+
+// A round beam meets a ball of radius r at a distance d if its axis passes less than its half angle
+// beside it, seen from the origin: asin(r / d). The ball's facets lie up to 1 % further inside.
+TEST(MayMeet, IsTrueOfNoBeamThatPassesBesideABall) {
+  constexpr float kHalfAngle_rad = 4e-3F;
+  constexpr float kDistance_m = 50.0F;
+  const TraceDevice device;
+  const auto ball =
+      std::make_shared<TraceModel>(device, Model{"ball", {{MakeSphere(0.5, 48, 96), 1, 7}}});
+  Eigen::Affine3d place = Eigen::Affine3d::Identity();
+  place.translate(Eigen::Vector3d(kDistance_m, 0.0, 0.0));
+  const TraceScene scene(device, {{ball, {place}, 1}});
+  const float ball_rad = std::asin(0.5F / kDistance_m);
+  for (int i = 0; i < 400; ++i) {
+    const float beside_rad = 1e-4F * static_cast<float>(i);
+    BeamRays beam = BeamAlong({std::cos(beside_rad), std::sin(beside_rad), 0.0F}, kHalfAngle_rad,
+                              kHalfAngle_rad);
+    const bool may_meet = MayMeet(scene.OnlyLabels({7}), beam);
+    EXPECT_TRUE(may_meet || beside_rad > 0.99F * ball_rad + kHalfAngle_rad) << i;
+    EXPECT_FALSE(may_meet && beside_rad > 1.03F * ball_rad + kHalfAngle_rad) << i;
+    EXPECT_FALSE(MayMeet(scene.OnlyLabels({8}), beam)) << i;
+    beam.range_m[0] = kDistance_m - 1.0F;
+    EXPECT_FALSE(MayMeet(scene.OnlyLabels({7}), beam)) << i;
+  }
 }
 
 TEST(TraceBeam, GivesTheSameBytesOnEveryInstructionSet) {
