@@ -197,13 +197,15 @@ constexpr std::uint32_t kCrowd = 96;
   return is_changed;
 }
 
+// Calls of the next two, which have two users, would cost 1 % of all instructions of `footprint`.
+
 /// Places an instance at the time of a beam, unless it moves and the beam's cone in the window
 /// frame does not come near it before `far`. Returns whether it may be met.
-[[nodiscard]] inline bool PlaceInstance(const BeamInstance& instance,
-                                        const Cone& window_cone,
-                                        float shutter,
-                                        float far,
-                                        InstancePlace& place) {
+[[nodiscard, gnu::always_inline]] inline bool PlaceInstance(const BeamInstance& instance,
+                                                            const Cone& window_cone,
+                                                            float shutter,
+                                                            float far,
+                                                            InstancePlace& place) {
   if (instance.num_steps == 1) {
     place = {instance.window_from_model[0], instance.model_from_window};
     return true;
@@ -215,11 +217,11 @@ constexpr std::uint32_t kCrowd = 96;
 }
 
 /// The beam's cone in the frame of a placed model, with so much of its semi-axes.
-inline void TurnIntoModel(const BeamInstance& instance,
-                          const Rows& model_from_window,
-                          const BeamRays& beam,
-                          float part,
-                          ModelBeam& model) {
+[[gnu::always_inline]] inline void TurnIntoModel(const BeamInstance& instance,
+                                                 const Rows& model_from_window,
+                                                 const BeamRays& beam,
+                                                 float part,
+                                                 ModelBeam& model) {
   Cone& cone = model.cone;
   Turn(model_from_window, beam.origin, cone.origin);
   for (int i = 0; i < 3; ++i) cone.origin[i] += model_from_window.m[4 * i + 3];
