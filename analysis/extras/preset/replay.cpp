@@ -152,8 +152,10 @@ std::vector<Frame> Replay::Scan(const SeenPlanes& seen,
                         .reflectivity = static_cast<float>(reflectivity),
                         .material = static_cast<std::uint16_t>(materials.size())});
   }
-  const SimulatorSpec spec{.detector =
-                               DetectorSpecOf(scenario_, scenario_.lidar, EffectsOf(scenario_))};
+  SimulatorSpec spec{.detector = DetectorSpecOf(scenario_, scenario_.lidar, EffectsOf(scenario_))};
+  // Errors of intensities and textures are drawn, and say nothing about a preset's laws.
+  EffectSet& effects = spec.detector.effects;
+  effects.intensity_noise = effects.channel_gain = effects.texture = false;
   Simulator simulator(std::make_shared<StandingWorld>(), pattern_, MaterialLibrary(materials), spec,
                       0);
   const PlaneCaster caster(seen, scan_.elevation_rad, surface_of);

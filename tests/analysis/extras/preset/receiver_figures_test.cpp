@@ -11,7 +11,6 @@
 #include <iterator>
 #include <random>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "analysis/extras/preset/preset_comparison.h"
@@ -161,18 +160,32 @@ std::string RowOf(const std::string& sensor, const ReceiverFigures& figures) {
          " |";
 }
 
-// The table of docs/results/validation.md.
+// A preset has what was measured to the interval, and nothing where this holds 0.
+void ExpectMeasured(double preset, const Estimate& measured) {
+  if (measured.low <= 0.0) {
+    EXPECT_EQ(preset, 0.0);
+    return;
+  }
+  EXPECT_GE(preset, measured.low);
+  EXPECT_LE(preset, measured.high);
+}
+
+// The tables of docs/results/validation.md.
 TEST(RealReceivers, ShowWhatThePageSays) {
   const std::string shared = RAILCAST_SHARED_DATA_DIR;
   const std::string nebula = shared + "/lidar_packets_nebula/";
-  const std::vector<std::pair<std::string, std::string>> recordings = {
-      {"VLS-128", nebula + "vls128_single.pcap"},
-      {"VLP-16", nebula + "vlp16_dual.pcap"},
-      {"VLP-32C", nebula + "vlp32c_single.pcap"},
-      {"Pandar64", nebula + "pandar64.pcap"},
-      {"Pandar40P", shared + "/lidar_hesai_more/40p.db3"},
-      {"XT32", shared + "/lidar_hesai/captures/xt32.db3"},
-      {"QT128", shared + "/lidar_hesai/captures/qt128.db3"},
+  struct Recording {
+    std::string sensor, path;
+    std::string preset{};  ///< With measured intensities; empty if there is none.
+  };
+  const std::vector<Recording> recordings = {
+      {"VLS-128", nebula + "vls128_single.pcap", "vls128"},
+      {"VLP-16", nebula + "vlp16_dual.pcap", "vlp16"},
+      {"VLP-32C", nebula + "vlp32c_single.pcap", "vlp32c"},
+      {"Pandar64", nebula + "pandar64.pcap", "pandar64"},
+      {"Pandar40P", shared + "/lidar_hesai_more/40p.db3", "pandar40p"},
+      {"XT32", shared + "/lidar_hesai/captures/xt32.db3", "xt32"},
+      {"QT128", shared + "/lidar_hesai/captures/qt128.db3", "qt128"},
       {"QT64", shared + "/lidar_hesai_more/qt64.db3"},
       {"HDL-32E", shared + "/lidar_velodyne_more/hdl32e.pcap"},
       {"OS1-128", shared + "/lidar_ouster/OS-1-128_v2.3.0_1024x10_lb_n3.pcap"},
@@ -180,12 +193,18 @@ TEST(RealReceivers, ShowWhatThePageSays) {
   std::ifstream file(RAILCAST_SOURCE_DIR "/docs/results/validation.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
   std::size_t num = 0;
-  for (const auto& [sensor, path] : recordings) {
+  for (const auto& [sensor, path, preset] : recordings) {
     if (!std::filesystem::exists(path)) continue;
     ++num;
-    const std::string row = RowOf(sensor, FindReceiverFigures(WholeTurns(*OpenRecording(path))));
+    SCOPED_TRACE(sensor);
+    const ReceiverFigures figures = FindReceiverFigures(WholeTurns(*OpenRecording(path)));
+    const std::string row = RowOf(sensor, figures);
     std::puts(row.c_str());
     EXPECT_THAT(page, testing::HasSubstr(row));
+    if (preset.empty()) continue;
+    const ReceiverSpec receiver = PresetScenario(preset).lidar.receiver;
+    ExpectMeasured(receiver.intensity_noise, figures.intensity_noise.robust);
+    ExpectMeasured(receiver.channel_gain, figures.channel_gain);
   }
   ScenarioSpec scenario = PresetScenario("vls128");
   for (Material& material : scenario.materials) material.reflectivity = 0.45;

@@ -44,6 +44,7 @@ inline constexpr float kWall_m = 14.0F;
 [[nodiscard]] inline ScenarioSpec LossyVlp16() {
   ScenarioSpec scenario = PresetScenario("vlp16");
   scenario.lidar.plausibility.dropout_probability = 0.05;
+  scenario.lidar.receiver.intensity_noise = 0.0;  // Replays have none.
   return scenario;
 }
 

@@ -21,11 +21,15 @@ struct LoopSensor {
   ScanPattern pattern;
 };
 
+/// A preset with exact intensities: where they err, so does the power that is estimated by them,
+/// and another seed is another unit, with other gains.
 [[nodiscard]] inline LoopSensor MakeLoopSensor(const std::string& name,
                                                Fidelity fidelity,
                                                const SectorSpec& sector) {
   LoopSensor sensor{ReadMinimalWith(name), {}};
   sensor.scenario.fidelity = fidelity;
+  ReceiverSpec& receiver = sensor.scenario.lidar.receiver;
+  receiver.intensity_noise = receiver.channel_gain = 0.0;
   sensor.scenario.lidar.scan = CutSector(sensor.scenario.lidar.scan, sector);
   sensor.pattern = BuildScanPattern(sensor.scenario.lidar.scan);
   return sensor;
