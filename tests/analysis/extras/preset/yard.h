@@ -44,7 +44,9 @@ inline constexpr float kWall_m = 14.0F;
 [[nodiscard]] inline ScenarioSpec LossyVlp16() {
   ScenarioSpec scenario = PresetScenario("vlp16");
   scenario.lidar.plausibility.dropout_probability = 0.05;
-  scenario.lidar.receiver.intensity_noise = 0.0;  // Replays have none.
+  // Replays have neither.
+  scenario.lidar.receiver.intensity_noise = 0.0;
+  for (Material& material : scenario.materials) material.texture = 0.0;
   return scenario;
 }
 
