@@ -1,8 +1,6 @@
-#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "analysis/commands.h"
 #include "analysis/inspect/inspection.h"

@@ -23,7 +23,6 @@
 #include "core/program/progress_line.h"
 #include "core/program/version.h"
 #include "railcast/io/recording.h"
-#include "railcast/rail_world.h"
 #include "railcast/scenario.h"
 
 namespace railcast {

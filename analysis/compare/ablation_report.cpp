@@ -3,6 +3,7 @@
 
 #include "analysis/compare/compare_report.h"
 #include "analysis/report/cell_text.h"
+#include "analysis/report/words.h"
 #include "analysis/stats/bins.h"
 #include "analysis/stats/names.h"
 #include "core/detect/detector/effect_table.h"
@@ -44,56 +45,28 @@ std::vector<const EffectStudy*> Sorted(
 }
 
 Chart ChangedChart(const std::vector<const EffectStudy*>& studies) {
-  Chart chart = {"changed_beams",
-                 "What each effect changes",
-                 "The longest bars are the effects that matter most here: beams whose position, "
-                 "intensity, range or outcome differ in any bit, and those whose outcome differs.",
-                 {},
-                 {"Share of beams", "%"},
-                 {{"anything", SeriesStyle::kBars}, {"outcome", SeriesStyle::kBars}}};
+  Table bars{.columns = ColumnsOf("effect: Effect; anything: Anything; outcome: Outcome")};
   for (const EffectStudy* const study : studies) {
-    const auto x = static_cast<double>(chart.x.categories.size());
-    chart.x.categories.push_back(NameOf(*study));
     const BeamChanges& beams = study->beams;
-    chart.series[0].points.push_back(
-        PointAt(x, PercentProportion(NumChanged(*study), beams.num_beams)));
-    chart.series[1].points.push_back(
-        PointAt(x, PercentProportion(beams.num_outcome_changed, beams.num_beams)));
+    bars.rows.push_back({NameOf(*study), PercentProportion(NumChanged(*study), beams.num_beams),
+                         PercentProportion(beams.num_outcome_changed, beams.num_beams)});
   }
-  return chart;
+  return ChartOfTable(kCompareWords, "changed_beams", bars);
 }
 
 Chart ReturnsChart(const std::vector<const EffectStudy*>& studies) {
-  Chart chart = {"returns",
-                 "Points that each effect takes away and adds",
-                 "The longest bars are the effects that cost or give most points, in percent of "
-                 "those without the effect.",
-                 {},
-                 {"Points", "%"},
-                 {{"taken away", SeriesStyle::kBars}, {"added", SeriesStyle::kBars}}};
+  Table bars{.columns = ColumnsOf("effect: Effect; removed: Taken away; added: Added")};
   for (const EffectStudy* const study : studies) {
-    const auto x = static_cast<double>(chart.x.categories.size());
-    chart.x.categories.push_back(NameOf(*study));
     const BeamChanges& beams = study->beams;
     const std::uint64_t num_without = beams.num_both + beams.num_removed;
-    chart.series[0].points.push_back({x, Percent(beams.num_removed, num_without)});
-    chart.series[1].points.push_back({x, Percent(beams.num_added, num_without)});
+    bars.rows.push_back({NameOf(*study), Percent(beams.num_removed, num_without),
+                         Percent(beams.num_added, num_without)});
   }
-  return chart;
+  return ChartOfTable(kCompareWords, "returns", bars);
 }
 
 Table EffectsTable(const std::vector<EffectStudy>& studies) {
-  Table table = {
-      "effects", "What each effect changes",
-      "Without the effect against with it, the same draws. Identical beams are the same in every "
-      "bit of position, intensity, range and outcome. Points moved and intensities changed are of "
-      "those that are there both times.",
-      ColumnsOf("effect: Effect; in_scenario: In the scenario; beams: Beams; identical_percent: "
-                "Identical beams; outcome_percent: Outcome changed; points_taken: Points taken "
-                "away; points_added: Points added; moved_percent: Points moved; moved_median_m: "
-                "Moved by, median; moved_95_m: Moved by, 95 %; intensity_percent: Intensity "
-                "changed; intensity_median: Intensity changed by, median; intensity_95: Intensity "
-                "changed by, 95 %")};
+  Table table = TableOf(kCompareWords, "effects");
   for (const EffectStudy& study : studies) {
     const BeamChanges& beams = study.beams;
     constexpr double kShare = 0.95;
@@ -111,14 +84,7 @@ Table EffectsTable(const std::vector<EffectStudy>& studies) {
 
 // What a mean over frames does not show: one frame may change and all others stay.
 Table FrameToFrameTable(const std::vector<EffectStudy>& studies) {
-  Table table = {
-      "frames", "What each effect changes, from frame to frame",
-      "Shares of a frame's beams: those whose outcome changed, and points taken away or added.",
-      ColumnsOf(
-          "effect: Effect; frames: Frames; outcome_least_percent: Outcome changed, least; "
-          "outcome_median_percent: Outcome changed, median; outcome_most_percent: Outcome changed, "
-          "most; points_least_percent: Points taken or added, least; points_median_percent: Points "
-          "taken or added, median; points_most_percent: Points taken or added, most")};
+  Table table = TableOf(kCompareWords, "frames");
   for (const EffectStudy& study : studies) {
     std::vector<Cell> row = {study.effect, study.frames.size()};
     for (const auto share : {&FrameChanges::outcome, &FrameChanges::points}) {
@@ -133,22 +99,13 @@ Table FrameToFrameTable(const std::vector<EffectStudy>& studies) {
 }
 
 Section EffectsSection(const std::vector<EffectStudy>& studies) {
-  Section section{
-      .key = "effects",
-      .title = "Beam by beam",
-      .paragraphs = {"Each effect is switched by itself, all others staying as they are, with the "
-                     "same seed: its draws are its own, so that beams which it leaves alone are "
-                     "the same in every bit. Intervals of shares take beams as independent."}};
   std::string rest;
   for (const std::string& name : EffectNames()) {
     const auto is_it = [&](const EffectStudy& study) { return study.effect == name; };
-    if (std::none_of(studies.begin(), studies.end(), is_it)) rest += ", " + InWords(name);
+    if (std::ranges::any_of(studies, is_it)) continue;
+    rest += (rest.empty() ? "" : ", ") + InWords(name);
   }
-  if (!rest.empty()) {
-    section.paragraphs.push_back(
-        "Not studied, because they do not go together with what the scenario has: " +
-        rest.substr(2) + ".");
-  }
+  Section section = SectionOf(kCompareWords, "effects", {{"rest", rest}});
   const std::vector<const EffectStudy*> sorted = Sorted(studies, NumChanged);
   section.charts = {ChangedChart(sorted), ReturnsChart(sorted)};
   section.tables = {EffectsTable(studies), FrameToFrameTable(studies)};
@@ -158,20 +115,15 @@ Section EffectsSection(const std::vector<EffectStudy>& studies) {
 // Charts only the effects that change most.
 Chart RangeChart(const std::vector<EffectStudy>& studies,
                  const std::string& key,
-                 const std::string& title,
                  std::uint64_t BeamChanges::RangeBin::*num_changed) {
-  Chart chart = {key,
-                 title,
-                 "The highest line is the effect that matters most at that range",
-                 {"Range", "m", true},
-                 {"Share of beams", "%"}};
+  std::vector<ChartSeries> lines;
   const auto sum = [&](const EffectStudy& study) {
     std::uint64_t num = 0;
     for (const BeamChanges::RangeBin& bin : study.beams.range_bins) num += bin.*num_changed;
     return num;
   };
   for (const EffectStudy* const study : Sorted(studies, sum)) {
-    if (sum(*study) == 0 || chart.series.size() == kMaxLines) break;
+    if (sum(*study) == 0 || lines.size() == kMaxLines) break;
     ChartSeries series{NameOf(*study), SeriesStyle::kLinePoints};
     for (std::size_t bin = 0; bin < RangeBins().size(); ++bin) {
       const BeamChanges::RangeBin& counts = study->beams.range_bins[bin];
@@ -179,22 +131,19 @@ Chart RangeChart(const std::vector<EffectStudy>& studies,
       series.points.push_back(PointAt(RangeBins().middle(bin),
                                       PercentProportion(counts.*num_changed, counts.num_beams)));
     }
-    chart.series.push_back(std::move(series));
+    lines.push_back(std::move(series));
   }
-  chart.caption.text +=
-      chart.series.size() == kMaxLines ? ", of the seven effects that change most beams." : ".";
+  Chart chart = ChartOf(kCompareWords, key, {{"seven", lines.size() == kMaxLines}});
+  chart.series = std::move(lines);
   return chart;
 }
 
 Section RangeSection(const std::vector<EffectStudy>& studies) {
-  Section section{.key = "by_range",
-                  .title = "By range",
-                  .paragraphs = {"Shares of the beams that meet a surface at this range."},
-                  .charts = {RangeChart(studies, "outcome_by_range", "Beams with another outcome",
-                                        &BeamChanges::RangeBin::num_outcome_changed),
-                             RangeChart(studies, "changed_by_range", "Beams that change at all",
-                                        &BeamChanges::RangeBin::num_changed)}};
-  Table table = {"changed_by_range", "Changed beams by range", "", ColumnsOf("range_m: Range")};
+  Section section = SectionOf(kCompareWords, "by_range");
+  section.charts = {
+      RangeChart(studies, "outcome_by_range", &BeamChanges::RangeBin::num_outcome_changed),
+      RangeChart(studies, "changed_by_range", &BeamChanges::RangeBin::num_changed)};
+  Table table = TableOf(kCompareWords, "changed_by_range");
   for (const EffectStudy& study : studies) {
     table.columns.push_back({study.effect + "_percent", InWords(study.effect), "%"});
   }
@@ -212,9 +161,7 @@ Section RangeSection(const std::vector<EffectStudy>& studies) {
 
 // How many more beams have each outcome with the effect than without it.
 Table OutcomesTable(const std::vector<EffectStudy>& studies) {
-  Table table = {"outcomes", "Beams gained and lost by each outcome",
-                 "How many more beams end so with the effect than without it.",
-                 ColumnsOf("effect: Effect")};
+  Table table = TableOf(kCompareWords, "outcomes");
   for (const std::string_view name : kOutcomeNames) {
     table.columns.push_back({std::string(name), InWords(name), ""});
   }
@@ -234,9 +181,7 @@ Table OutcomesTable(const std::vector<EffectStudy>& studies) {
 }
 
 Table TransitionsTable(const std::vector<EffectStudy>& studies) {
-  Table table = {"transitions", "What became of which beams", "",
-                 ColumnsOf("effect: Effect; without: Without it; with: With it; beams: Beams; "
-                           "share_percent: Share of those without it")};
+  Table table = TableOf(kCompareWords, "transitions");
   for (const EffectStudy& study : studies) {
     for (std::size_t from = 0; from < BeamChanges::kNumOutcomes; ++from) {
       const auto& row = study.beams.transitions[from];
@@ -254,41 +199,23 @@ Table TransitionsTable(const std::vector<EffectStudy>& studies) {
 }
 
 Section OutcomesSection(const std::vector<EffectStudy>& studies) {
-  Section section{.key = "outcomes",
-                  .title = "Outcomes",
-                  .tables = {OutcomesTable(studies), TransitionsTable(studies)}};
+  Section section = SectionOf(kCompareWords, "outcomes");
+  section.tables = {OutcomesTable(studies), TransitionsTable(studies)};
   return section;
 }
 
-Chart CloudChart(const std::vector<EffectStudy>& studies,
-                 const std::string& metric,
-                 const std::string& title,
-                 const std::string& unit) {
-  Chart chart = {metric,
-                 title,
-                 "The longest bar is the effect that changes the cloud most; effects in the order "
-                 "of the beams that they change.",
-                 {},
-                 {title, unit},
-                 {{"", SeriesStyle::kBars}}};
+Chart CloudChart(const std::vector<EffectStudy>& studies, const std::string& metric) {
+  Table bars{.columns = ColumnsOf("effect: Effect; mean: Mean")};
   for (const EffectStudy* const study : Sorted(studies, NumChanged)) {
-    const Cell mean = MeanOverPairs(study->clouds, metric);
-    const auto x = static_cast<double>(chart.x.categories.size());
-    chart.x.categories.push_back(NameOf(*study));
-    chart.series[0].points.push_back(std::holds_alternative<Estimate>(mean)
-                                         ? PointAt(x, std::get<Estimate>(mean))
-                                         : ChartPoint{x, std::get<double>(mean)});
+    bars.rows.push_back({NameOf(*study), MeanOverPairs(study->clouds, metric)});
   }
-  return chart;
+  return ChartOfTable(kCompareWords, metric, bars);
 }
 
 Section CloudsSection(const std::vector<EffectStudy>& studies) {
-  Section section{.key = "clouds", .title = "Cloud against cloud", .paragraphs = MetricsInWords()};
-  section.paragraphs.emplace_back("A is the cloud without the effect, B the one with it.");
-  section.charts = {
-      CloudChart(studies, "chamfer_m", "Chamfer distance", "m"),
-      CloudChart(studies, "density_aware_chamfer", "Density-aware Chamfer distance", "")};
-  Table table = {"clouds", "Metrics of clouds, means over frames", "", ColumnsOf("effect: Effect")};
+  Section section = SectionOf(kCompareWords, "clouds", {{"metrics", MetricsInWords()}});
+  section.charts = {CloudChart(studies, "chamfer_m"), CloudChart(studies, "density_aware_chamfer")};
+  Table table = TableOf(kCompareWords, "clouds");
   if (!studies.empty()) {
     std::ranges::copy(studies.front().clouds.metrics(), std::back_inserter(table.columns));
   }

@@ -14,6 +14,9 @@
 
 namespace railcast {
 
+/// The words of comparisons (report/words.h).
+extern const char* const kCompareWords;
+
 /// @param pairs Read to the end.
 [[nodiscard]] Report MakeCompareReport(const Comparison& comparison,
                                        const FramePairs& pairs,
@@ -36,7 +39,7 @@ namespace railcast {
 [[nodiscard]] Table MetricsTable(const Comparison& comparison);
 
 /// Explains the metrics to a reader of the report.
-[[nodiscard]] std::vector<std::string> MetricsInWords();
+[[nodiscard]] std::string MetricsInWords();
 
 /// The mean over the pairs, with its interval if there are enough pairs, else the bare mean.
 [[nodiscard]] Cell MeanOverPairs(const Comparison& comparison, const std::string& metric);

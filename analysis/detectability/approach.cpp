@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "railcast/rail_world.h"

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "analysis/detectability/detection_probability.h"
+#include "analysis/report/words.h"
 #include "core/base/text.h"
 
 namespace railcast {
@@ -14,45 +15,8 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kKmphPerMps = 3.6;
 constexpr double kPermil = 1000.0;
 
-std::string RuleText(const DetectSpec& spec) {
-  const DetectionRule& rule = spec.rule;
-  return "An object is detected in the first frame in which it has had at least " +
-         NumberText(rule.min_points) + " points in " + NumberText(rule.min_frames) +
-         " of the last " + NumberText(rule.of_frames) +
-         " frames, on the way to its closest point. Its distance is that of the sensor from the "
-         "nearest point of its box.";
-}
-
-std::string WayText() {
-  return "In the way is what reaches, at any time of the approach, into the vehicle's outline on "
-         "the own track ahead: as wide and high as a wagon of gauge G1, and as a pantograph above "
-         "it. What does not is no reason to brake and is not judged. What is detected too late, "
-         "but by the run's first frames, is not judged either: had the run begun farther off, it "
-         "might have been in time.";
-}
-
-std::string RunsText(std::size_t num_runs) {
-  if (num_runs == 1) {
-    return "One run: no interval can be given, and another seed may end otherwise.";
-  }
-  if (num_runs < kMinSamples) {
-    return NumberText(num_runs) + " runs with a seed each: fewer than " + NumberText(kMinSamples) +
-           " give no interval.";
-  }
-  return NumberText(num_runs) +
-         " runs with a seed each: intervals say what more seeds would change.";
-}
-
 Table BesideTable(const std::vector<Verdict>& verdicts) {
-  Table table{
-      .key = "beside_the_track",
-      .title = "What is beside the track",
-      .note =
-          "The distance is that of the object's box from the axis of the own track ahead, across, "
-          "where it was nearest; absent of what was never ahead. Distances of detection are absent "
-          "where it came at once.",
-      .columns = ColumnsOf("object: Object; type: Type; from_axis_m: From the axis; runs: Runs; "
-                           "detected: Detected; least_detected_at_m: Detected at, at least")};
+  Table table = TableOf(kDetectabilityWords, "beside_the_track");
   for (const Verdict& verdict : verdicts) {
     if (verdict.is_in_way) continue;
     table.rows.push_back({verdict.name, verdict.type,
@@ -63,15 +27,7 @@ Table BesideTable(const std::vector<Verdict>& verdicts) {
 }
 
 Table RunTable(const std::vector<DetectRun>& runs) {
-  Table table{
-      .key = "runs",
-      .title = "Each run",
-      .note =
-          "At once, or begun too near: the run's first frames show the object, which may be seen "
-          "from farther off.",
-      .columns = ColumnsOf("seed: Seed; object: Object; outcome: Outcome; detected_at_m: Detected "
-                           "at; speed_kmph: Speed; gradient_permil: Gradient; braking_distance_m: "
-                           "Braking distance; needed_m: Needed; spare_m: To spare")};
+  Table table = TableOf(kDetectabilityWords, "runs");
   for (const DetectRun& run : runs) {
     for (const auto& [name, detection] : run.detections) {
       const bool is_judged = detection.is_in_way && detection.fate != Fate::kNeverApproached;
@@ -130,12 +86,9 @@ void AddHeadlines(const std::vector<Verdict>& verdicts, Report& report) {
 }
 
 Section VerdictSection(const std::vector<Verdict>& verdicts, const RungUsed& rung) {
-  Section section{.key = "verdicts", .title = "In the way"};
   const bool is_any_judged = std::ranges::any_of(verdicts, &Verdict::is_judged);
-  if (!is_any_judged) section.paragraphs = {"Nothing that was in the way can be judged."};
-  if (const std::string warning = rung.Warning(); !warning.empty()) {
-    section.paragraphs.push_back(warning);
-  }
+  Section section = SectionOf(kDetectabilityWords, "verdicts",
+                              {{"is_any_judged", is_any_judged}, {"warning", rung.Warning()}});
   section.tables = {VerdictTable(verdicts), MeansTable(verdicts)};
   return section;
 }
@@ -143,7 +96,7 @@ Section VerdictSection(const std::vector<Verdict>& verdicts, const RungUsed& run
 Section PointsSection(const std::vector<DetectRun>& runs,
                       const std::vector<Verdict>& verdicts,
                       const DetectionRule& rule) {
-  Section section{.key = "points", .title = "Points against distance"};
+  Section section = SectionOf(kDetectabilityWords, "points");
   for (const bool is_in_way : {true, false}) {
     for (const Verdict& object : verdicts) {
       const bool is_due = object.is_in_way == is_in_way && object.num_approached > 0;
@@ -159,26 +112,15 @@ Section PointsSection(const std::vector<DetectRun>& runs,
 
 std::string BrakingText(const DetectSpec& spec) {
   const BrakingSpec& braking = spec.braking;
-  return "Needed is s = v t + v^2 / (2 (a + g i)) + margin, with t = " +
-         NumberText(braking.reaction_s) +
-         " s from detection to full braking, a = " + NumberText(braking.deceleration_mps2) +
-         " m/s^2 on the level, a margin of " + NumberText(braking.margin_m) +
-         " m, and the gradient i where the object is detected. v is " +
-         (spec.speed_mps ? "as given." : "the vehicle's own speed then.") +
-         " What comes towards the vehicle needs its own way during the stop on top; what goes away "
-         "is taken to stand.";
+  return SentencesOf(kDetectabilityWords, "braking",
+                     {{"reaction_s", NumberText(braking.reaction_s)},
+                      {"deceleration_mps2", NumberText(braking.deceleration_mps2)},
+                      {"margin_m", NumberText(braking.margin_m)},
+                      {"is_given", spec.speed_mps.has_value()}});
 }
 
 Table VerdictTable(const std::vector<Verdict>& verdicts) {
-  Table table{
-      .key = "verdicts",
-      .title = "Which objects are detected in time to stop",
-      .note = "Distances of detection are of the runs that detected the object, but not at once.",
-      .columns =
-          ColumnsOf("object: Object; type: Type; verdict: Verdict; runs: Runs; "
-                    "least_detected_at_m: Detected at, at least; needed_m: Needed, at most; "
-                    "least_spare_m: To spare, at least; begun_too_near: Begun too near to tell"),
-      .is_open = true};
+  Table table = TableOf(kDetectabilityWords, "verdicts");
   for (const Verdict& verdict : verdicts) {
     if (!verdict.is_in_way) continue;
     table.rows.push_back({verdict.name, verdict.type, verdict.InWords(), verdict.num_approached,
@@ -189,13 +131,7 @@ Table VerdictTable(const std::vector<Verdict>& verdicts) {
 }
 
 Table MeansTable(const std::vector<Verdict>& verdicts) {
-  Table table{.key = "means",
-              .title = "Means over the runs",
-              .note =
-                  "Of the runs that detected the object, but not at once; the share in time is of "
-                  "those that approached it and did not begin too near to tell.",
-              .columns = ColumnsOf("object: Object; detected_at_m: Detected at; spare_m: To spare; "
-                                   "in_time_percent: In time")};
+  Table table = TableOf(kDetectabilityWords, "means");
   for (const Verdict& verdict : verdicts) {
     if (!verdict.is_in_way) continue;
     table.rows.push_back(
@@ -229,16 +165,24 @@ Report MakeDetectReport(const std::vector<DetectRun>& runs,
   const bool is_any_beside =
       std::ranges::any_of(verdicts, [](const Verdict& each) { return !each.is_in_way; });
   if (is_any_beside) {
-    report.sections.push_back(
-        {.key = "beside", .title = "Beside the track", .tables = {BesideTable(verdicts)}});
+    Section& beside = report.sections.emplace_back(SectionOf(kDetectabilityWords, "beside"));
+    beside.tables = {BesideTable(verdicts)};
   }
   report.sections.push_back(MakeProbabilitySection(runs, verdicts));
   report.sections.push_back(PointsSection(runs, verdicts, spec.rule));
-  report.sections.push_back({.key = "runs", .title = "Run by run", .tables = {RunTable(runs)}});
-  report.sections.push_back(
-      {.key = "rules",
-       .title = "What is asked",
-       .paragraphs = {WayText(), RuleText(spec), BrakingText(spec), RunsText(runs.size())}});
+  Section& each = report.sections.emplace_back(SectionOf(kDetectabilityWords, "runs"));
+  each.tables = {RunTable(runs)};
+  const DetectionRule& rule = spec.rule;
+  report.sections.push_back(SectionOf(kDetectabilityWords, "rules",
+                                      {{"min_points", NumberText(rule.min_points)},
+                                       {"min_frames", NumberText(rule.min_frames)},
+                                       {"of_frames", NumberText(rule.of_frames)},
+                                       {"braking", BrakingText(spec)},
+                                       {"num_runs", NumberText(runs.size())},
+                                       {"min_samples", NumberText(kMinSamples)},
+                                       {"one", runs.size() == 1},
+                                       {"few", runs.size() != 1 && runs.size() < kMinSamples},
+                                       {"many", runs.size() >= kMinSamples}}));
   return report;
 }
 

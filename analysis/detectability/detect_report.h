@@ -11,6 +11,9 @@
 
 namespace railcast {
 
+/// The words of reports on detection (report/words.h).
+extern const char* const kDetectabilityWords;
+
 /// The rung that made the frames of one or several runs of a scenario.
 struct RungUsed {
   std::string name;  ///< As the scenario names it.

@@ -10,6 +10,7 @@
 
 #include "analysis/detectability/detect_report.h"
 #include "analysis/estimate/estimate.h"
+#include "analysis/report/words.h"
 #include "core/base/text.h"
 
 namespace railcast {
@@ -89,23 +90,18 @@ Chart ProbabilityChart(const std::string& object,
                        const std::vector<double>& detected_m,
                        const std::vector<Inspection>& inspected,
                        const DetectionFit& fit) {
-  Chart chart{
-      .key = KeyOfObject("probability_", object),
-      .title = "Probability that " + object + " is detected",
-      .caption = "By the time it is as near as this; the steps are what the approaches did.",
-      .x = {.title = "Distance", .unit = "m"},
-      .y = {.title = "Probability of detection", .unit = ""},
-      .series = {SharesDetected(detected_m)}};
+  const bool has_curve = !std::isnan(fit.curve.middle_m);
+  Chart chart =
+      ChartOf(kDetectabilityWords, "probability", {{"object", object}, {"has_curve", has_curve}});
+  chart.key = KeyOfObject("probability_", object);
+  chart.series = {SharesDetected(detected_m)};
   const double d90_95_m = DistanceOf90With95(detected_m);
   if (!std::isnan(d90_95_m)) {
     chart.series.push_back({"0.9 with 95 % confidence",
                             SeriesStyle::kPoints,
                             {{.x = d90_95_m, .y = 0.9, .label = RoundedText(d90_95_m) + " m"}}});
   }
-  if (std::isnan(fit.curve.middle_m)) return chart;
-  chart.caption.text +=
-      " An inspection, a point at 1 or 0, keeps little of that; the curve is the most likely one "
-      "for all inspections.";
+  if (!has_curve) return chart;
   ChartSeries inspections{"inspections", SeriesStyle::kPoints};
   double farthest_m = 0.0;
   for (const Inspection& each : inspected) {
@@ -125,19 +121,8 @@ Chart ProbabilityChart(const std::string& object,
 
 Section MakeProbabilitySection(const std::vector<DetectRun>& runs,
                                const std::vector<Verdict>& verdicts) {
-  Section section{.key = "probability", .title = "Probability of detection"};
-  Table table{
-      .key = "probability",
-      .title = "Distances by which objects are detected with a probability of 0.9",
-      .note =
-          "With 95 % confidence by the ranks of the runs' distances of detection. The curve is the "
-          "log-logistic one of hit and miss (MIL-HDBK-1823A), with an asymptote below 1 where the "
-          "likelihood ratio asks for it; its bounds are those of the profile likelihood. For it "
-          "each run is inspected once, since its frames are not independent.",
-      .columns = ColumnsOf("object: Object; inspections: Inspections; detected: Detected; "
-                           "d90_95_m: 0.9 with 95 % confidence at; curve_d90_m: Curve: 0.9 at; "
-                           "curve_d90_95_m: Curve: with 95 % confidence; asymptote: Asymptote"),
-      .is_open = true};
+  std::vector<Chart> charts;
+  Table table = TableOf(kDetectabilityWords, "probability");
   std::string too_few;
   for (const Verdict& verdict : verdicts) {
     if (!verdict.is_in_way || verdict.num_approached == 0) continue;
@@ -156,15 +141,14 @@ Section MakeProbabilitySection(const std::vector<DetectRun>& runs,
     table.rows.push_back({verdict.name, fit.num_targets, fit.num_detected,
                           DistanceOf90With95(detected_m), fit.d90_m, fit.d90_95_m,
                           AsymptoteCell(fit)});
-    if (section.charts.size() < kMaxCharts) {
-      section.charts.push_back(ProbabilityChart(verdict.name, detected_m, inspections, fit));
+    if (charts.size() < kMaxCharts) {
+      charts.push_back(ProbabilityChart(verdict.name, detected_m, inspections, fit));
     }
   }
-  if (!too_few.empty()) {
-    section.paragraphs = {"Too few inspections for a probability of detection, which takes " +
-                          NumberText(DetectionFit::kMinTargets) + ", one of each run: " + too_few +
-                          "."};
-  }
+  Section section =
+      SectionOf(kDetectabilityWords, "probability",
+                {{"min_targets", NumberText(DetectionFit::kMinTargets)}, {"too_few", too_few}});
+  section.charts = std::move(charts);
   if (!table.rows.empty()) section.tables = {std::move(table)};
   return section;
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "analysis/pictures/grid_pictures.h"
+#include "analysis/report/words.h"
 #include "core/base/text.h"
 #include "core/io/recording/recorded_motion.h"
 #include "core/io/run/camera_files.h"
@@ -107,11 +108,7 @@ std::optional<Picture> PictureOf(const DetectRun& run, const std::string& name) 
 }  // namespace
 
 Section MakePictureSection(const std::vector<DetectRun>& runs) {
-  Section section{.key = "pictures",
-                  .title = "First sight",
-                  .paragraphs = {"Points as the sensor sees them, in the colours of their labels. "
-                                 "A frame is missed if the object has fewer points in it than the "
-                                 "rule asks for."}};
+  Section section = SectionOf(kDetectabilityWords, "pictures");
   for (const Verdict& object : MakeVerdicts(runs)) {
     if (!object.is_in_way || section.pictures.size() == kMaxCharts) continue;
     const DetectRun* const run = RunToShow(runs, object.name);

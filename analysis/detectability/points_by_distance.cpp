@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analysis/estimate/streams.h"
+#include "analysis/report/words.h"
 #include "core/base/text.h"
 
 namespace railcast {
@@ -61,18 +62,8 @@ std::string KeyOfObject(const std::string& prefix, const std::string& name) {
 }
 
 Table PointsTable(const std::vector<DetectRun>& runs, const DetectionRule& rule) {
-  Table table{.key = "points_by_distance",
-              .title = "Points on each object by distance",
-              .note =
-                  "Samples are frames of all runs, up to the closest point. Frames of one run show "
-                  "the same object a little nearer each time and are not independent: the "
-                  "intervals are of their scatter.",
-              .columns = {{"object", "Object", ""},
-                          {"distance_m", "Distance", "m"},
-                          {"frames", "Frames", ""},
-                          {"points", "Points a frame", ""},
-                          {"enough_percent",
-                           "Frames with " + NumberText(rule.min_points) + " points", "%"}}};
+  Table table = TableOf(kDetectabilityWords, "points_by_distance",
+                        {{"min_points", NumberText(rule.min_points)}});
   for (const Verdict& verdict : MakeVerdicts(runs)) {
     for (const auto& [index, bin] : BinsOf(runs, verdict.name, rule)) {
       table.rows.push_back({verdict.name,
@@ -87,15 +78,9 @@ Table PointsTable(const std::vector<DetectRun>& runs, const DetectionRule& rule)
 Chart PointsChart(const std::vector<DetectRun>& runs,
                   const Verdict& verdict,
                   const DetectionRule& rule) {
-  Chart chart{.key = KeyOfObject("points_", verdict.name),
-              .title = "Points on " + verdict.name + " against distance",
-              .caption = std::string("Means of 10 m, with intervals where there are ten frames or "
-                                     "more; a cross is a bin without points. ") +
-                         (verdict.is_in_way
-                              ? "In time: the detection stands to the right of what is needed."
-                              : "Beside the track: nothing to brake for."),
-              .x = {.title = "Distance", .unit = "m"},
-              .y = {.title = "Points a frame", .unit = "", .is_log = true}};
+  Chart chart = ChartOf(kDetectabilityWords, "points",
+                        {{"object", verdict.name}, {"is_in_way", verdict.is_in_way}});
+  chart.key = KeyOfObject("points_", verdict.name);
   ChartSeries points{verdict.name, SeriesStyle::kLinePoints};
   double highest = rule.min_points;
   double farthest_m = verdict.is_in_way ? verdict.most_needed_m : 0.0;

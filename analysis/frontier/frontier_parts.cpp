@@ -6,6 +6,7 @@
 #include "analysis/frontier/frontier_report.h"
 #include "analysis/report/cell_text.h"
 #include "analysis/report/chart_columns.h"
+#include "analysis/report/words.h"
 #include "analysis/stats/names.h"
 
 namespace railcast {
@@ -33,13 +34,8 @@ Table PartsTable(const std::vector<RowResult>& results,
                  ScenePart::Kind kind,
                  const std::string& what,
                  const std::string& column) {
-  Table table = {"by_" + what, "Errors by " + what,
-                 "Shares are of the echoes at this range, of this class or of this object, with "
-                 "intervals that take echoes as independent (Wilson).",
-                 ColumnsOf("row: Row; " + column +
-                           "; reference_echoes: Reference; missed_percent: Missed; echoes: Echoes; "
-                           "false_percent: False; range_median_mm: Range error, median; "
-                           "intensity_percent: Intensity error, median")};
+  Table table = TableOf(kFrontierWords, "by_part", {{"what", what}, {"column", column}});
+  table.key = "by_" + what;
   for (const RowResult& result : results) {
     if (!result.difference) continue;
     for (const PartDifference& part : result.difference->parts) {
@@ -50,13 +46,8 @@ Table PartsTable(const std::vector<RowResult>& results,
 }
 
 Table DetectionTable(const std::vector<RowResult>& results) {
-  Table table = {"detection_distances", "Detection distances",
-                 "The distance from which on an object that comes nearer has " +
-                     std::to_string(DetectionRule{}.min_points) +
-                     " points in a frame, interpolated between frames. Absent where the first "
-                     "frame has them already; 0 where no frame has them.",
-                 ColumnsOf("row: Row; object: Object; reference_m: Distance in the reference; "
-                           "distance_m: Distance; most_points: Most points of the reference")};
+  Table table = TableOf(kFrontierWords, "detection_distances",
+                        {{"min_points", std::to_string(DetectionRule{}.min_points)}});
   for (const RowResult& result : results) {
     if (!result.difference) continue;
     for (const Approach& approach : result.difference->approaches) {
@@ -77,14 +68,8 @@ Table DetectionTable(const std::vector<RowResult>& results) {
 // The rungs and the choice; brute force would hide them.
 Chart ErrorByRangeChart(const std::vector<RowResult>& results,
                         const Table& by_range,
-                        const std::string& column,
-                        const std::string& title) {
-  Chart chart{column + "_by_range",
-              title + " by range",
-              "The lowest line is the best row at that range; bands and bars are intervals of 95 "
-              "%, which take echoes as independent.",
-              {"Range", "m"},
-              {title, "%", false}};
+                        const std::string& column) {
+  Chart chart = ChartOf(kFrontierWords, column + "_by_range");
   for (const RowResult& result : results) {
     const RowGroup group = result.row.group;
     if (!result.difference || (group != RowGroup::kLadder && group != RowGroup::kChosen)) continue;
@@ -99,26 +84,19 @@ Chart ErrorByRangeChart(const std::vector<RowResult>& results,
 }  // namespace
 
 Section PartsSection(const std::vector<RowResult>& results) {
-  Section section{.key = "parts", .title = "By range, class and object"};
+  Section section = SectionOf(kFrontierWords, "parts");
   section.tables = {PartsTable(results, ScenePart::Kind::kRangeBin, "range", "range [m]: Range"),
                     PartsTable(results, ScenePart::Kind::kClass, "class", "class: Class"),
                     PartsTable(results, ScenePart::Kind::kObject, "object", "object: Object"),
                     DetectionTable(results)};
-  section.charts = {
-      ErrorByRangeChart(results, section.tables.front(), "missed_percent", "Echoes missed"),
-      ErrorByRangeChart(results, section.tables.front(), "false_percent", "False echoes")};
+  section.charts = {ErrorByRangeChart(results, section.tables.front(), "missed_percent"),
+                    ErrorByRangeChart(results, section.tables.front(), "false_percent")};
   std::erase_if(section.tables, [](const Table& table) { return table.rows.empty(); });
   return section;
 }
 
 Table DetailTable(const LabelTable& labels, const std::vector<RowResult>& results) {
-  Table table = {"detail_by_range", "What scene detail auto changes",
-                 "How many more first echoes of their firings, and further ones, there are than in "
-                 "the same row in full detail, and how much larger the first ones' mean intensity "
-                 "is, by class and range, where full detail has 400 first echoes or more. 0 is no "
-                 "change. Intervals are of 95 %, from the differences between frames.",
-                 ColumnsOf("row: Row; class: Class; range [m]: Range; first_percent: First echoes; "
-                           "further_percent: Further echoes; intensity_percent: Mean intensity")};
+  Table table = TableOf(kFrontierWords, "detail_by_range");
   for (const RowResult& result : results) {
     for (const DetailDifference& difference : result.detail_differences) {
       const double from_m = kDetailBin_m * difference.bin;
@@ -137,16 +115,10 @@ std::optional<Section> DetailSection(const FrontierPlan& plan,
   Table table = DetailTable(labels, results);
   if (table.rows.empty()) return std::nullopt;
   table.is_open = true;
-  return Section{
-      .key = "scene_detail",
-      .title = "Scene detail",
-      .paragraphs = {Joined(
-          {"Rows with +auto_detail trace a scene as coarse as world.detail auto permits. Their "
-           "echoes are other ones, about as many and as strong, and cannot be matched with those "
-           "of the reference. Their differences here are statistical, over ",
-           CountText(plan.detail_frames.size()),
-           " frames, and must not be compared with the errors of the other rows."})},
-      .tables = {std::move(table)}};
+  Section section = SectionOf(kFrontierWords, "scene_detail",
+                              {{"num_frames", CountText(plan.detail_frames.size())}});
+  section.tables = {std::move(table)};
+  return section;
 }
 
 }  // namespace railcast

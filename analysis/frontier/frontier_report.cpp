@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "analysis/frontier/pareto.h"
 #include "analysis/report/cell_text.h"
 #include "analysis/report/chart_columns.h"
 #include "analysis/report/formats.h"
 #include "analysis/report/provenance.h"
+#include "analysis/report/words.h"
 
 namespace railcast {
 namespace {
@@ -18,11 +18,7 @@ constexpr double kPercentOfAll = 100.0;
 
 // All errors of all rows, in SI units or in units for readers.
 Table ErrorsTable(const std::vector<RowResult>& results, bool is_si) {
-  Table table = {"time_and_errors", "Time and errors",
-                 "Time of a frame, and as a multiple of the raw trace's. Errors are against the "
-                 "reference; less is better.",
-                 ColumnsOf("row: Row; group: Group; p50_ms: Time p50; p99_ms: Time p99; "
-                           "ratio_to_raw_trace: Time x raw")};
+  Table table = TableOf(kFrontierWords, "time_and_errors");
   for (const FrontierError& error : kFrontierErrors) {
     table.columns.push_back({is_si ? error.name : error.shown_name, error.title, error.unit});
   }
@@ -39,13 +35,7 @@ Table ErrorsTable(const std::vector<RowResult>& results, bool is_si) {
 }
 
 Table FoundTable(const std::vector<RowResult>& results) {
-  Table table = {
-      "found", "What was found",
-      "Recall: of the reference's echoes, what the row has, too; precision: of the row's echoes, "
-      "what the reference has, too. Intervals take echoes as independent (Wilson).",
-      ColumnsOf("row: Row; time_ratio: Time x raw; recall_percent: Recall; precision_percent: "
-                "Precision; wires_percent: Wires; further_percent: Further echoes; second_percent: "
-                "Second surfaces; step_percent: Steps")};
+  Table table = TableOf(kFrontierWords, "found");
   for (const RowResult& result : results) {
     if (!result.difference) continue;
     const FrameDifference& d = *result.difference;
@@ -74,12 +64,7 @@ void AddPoints(const std::string& row,
 }
 
 Table TargetsTable(const std::vector<RowResult>& results) {
-  Table table = {"targets", "Points on persons and poles",
-                 "Echoes of persons, and of poles, masts and signals, by their range, in bins of "
-                 "50 m, the last without an end. The error in the table of errors is the mean of "
-                 "|ratio - 1| over the bins with 20 points of the reference or more.",
-                 ColumnsOf("row: Row; target: Target; from_m: From; reference_points: Reference; "
-                           "points: Points; ratio: Ratio")};
+  Table table = TableOf(kFrontierWords, "targets");
   for (const RowResult& result : results) {
     if (!result.difference) continue;
     AddPoints(result.row.name, "persons", result.difference->persons, table);
@@ -89,10 +74,7 @@ Table TargetsTable(const std::vector<RowResult>& results) {
 }
 
 Table ParetoTable(const std::vector<RowResult>& results) {
-  Table table = {"pareto_fronts", "Pareto fronts",
-                 "For each error the rows that no other row beats, the references apart: none is "
-                 "as fast and as accurate and better in one of both.",
-                 ColumnsOf("error: Error; rows: Rows")};
+  Table table = TableOf(kFrontierWords, "pareto_fronts");
   for (const FrontierError& error : kFrontierErrors) {
     const std::vector<std::string> names = ParetoFront(results, error);
     std::string rows;
@@ -124,37 +106,26 @@ ChartSeries GroupSeries(const Table& errors,
 
 Chart ErrorChart(const Table& errors, const FrontierError& error) {
   const std::string key = error.shown_name;
-  Chart chart = {
-      key,
-      Joined({error.title, " against time"}),
-      "Left and low is best: a row is worth its time where none lies both left of it and below.",
-      {"Time per frame / raw trace", "", true},
-      {error.title, error.unit, false},
-      {GroupSeries(errors, key, RowGroup::kLadder, "railcast"),
-       GroupSeries(errors, key, RowGroup::kBruteForce, "brute force, rays a beam"),
-       GroupSeries(errors, key, RowGroup::kBetween, "footprint without thin_conductors"),
-       GroupSeries(errors, key, RowGroup::kChosen, "fidelity auto")}};
+  Chart chart = ChartOf(kFrontierWords, "error", {{"error", error.title}});
+  chart.key = key;
+  chart.y.unit = error.unit;
+  chart.series = {GroupSeries(errors, key, RowGroup::kLadder, "railcast"),
+                  GroupSeries(errors, key, RowGroup::kBruteForce, "brute force, rays a beam"),
+                  GroupSeries(errors, key, RowGroup::kBetween, "footprint without thin_conductors"),
+                  GroupSeries(errors, key, RowGroup::kChosen, "fidelity auto")};
   // Only rows that were run stand in the legend.
   std::erase_if(chart.series, [](const ChartSeries& series) { return series.points.empty(); });
   return chart;
 }
 
 Section TimeSection(const std::vector<RowResult>& results) {
-  Section section{.key = "frontier", .title = "Time against error"};
+  Section section = SectionOf(kFrontierWords, "frontier");
   const Table errors = ErrorsTable(results, false);
   for (std::size_t i = 0; i < kNumCharts; ++i) {
     section.charts.push_back(ErrorChart(errors, kFrontierErrors[i]));
   }
   section.paragraphs = {DefeatsText(results)};
   section.tables = {errors, FoundTable(results), TargetsTable(results), ParetoTable(results)};
-  for (Table& table : section.tables) table.is_open = true;
-  return section;
-}
-
-Section ChoiceSection(const std::string& choice_text) {
-  Section section{.key = "fidelity_auto", .title = "What the scene needs"};
-  std::istringstream lines(choice_text);
-  for (std::string line; std::getline(lines, line);) section.paragraphs.push_back(line);
   return section;
 }
 
@@ -192,7 +163,8 @@ Report MakeFrontierReport(const FrontierPlan& plan,
   if (auto detail = DetailSection(plan, labels, results)) {
     report.sections.push_back(std::move(*detail));
   }
-  report.sections.push_back(ChoiceSection(circumstances.choice_text));
+  report.sections.push_back(
+      SectionOf(kFrontierWords, "fidelity_auto", {{"choice", circumstances.choice_text}}));
   return report;
 }
 

@@ -10,6 +10,9 @@
 
 namespace railcast {
 
+/// The words of frontiers (report/words.h).
+extern const char* const kFrontierWords;
+
 /// The circumstances under which the numbers of a frontier hold.
 struct FrontierCircumstances {
   std::string version;   ///< Version of railcast.

@@ -5,7 +5,6 @@
 #include <sstream>
 #include <string_view>
 
-#include "core/base/error.h"
 #include "core/base/text.h"
 
 namespace railcast {

@@ -9,12 +9,14 @@
 #include <utility>
 
 #include "analysis/limits/limit_sections.h"
+#include "analysis/report/words.h"
 #include "core/io/sensor_tables.h"
 #include "core/scenario/json_text.h"
 
 namespace railcast {
 
 extern const char* const kLimits;
+extern const char* const kLimitsWords;
 extern const char* const kValidatedSensors;
 
 namespace {
@@ -55,19 +57,7 @@ Section SensorSection(const std::vector<ScenarioSpec>& sample) {
   for (const Json& row : Json::parse(kValidatedSensors)) {
     compared.emplace(row.at("sensor").get<std::string>(), row);
   }
-  Table table{
-      .key = "sensor",
-      .title = "The sensor's preset against recordings",
-      .note =
-          "On planes of one recording of each sensor, on halves of the scene that no parameter was "
-          "fitted to (docs/results/validation.md of railcast): error of the number of points over "
-          "bins of range, error of the intensities over cells, simulated over recorded noise, and "
-          "the share of firings on planes without a point. Nothing of these recordings is of "
-          "railways, and none is in rain or fog.",
-      .columns = ColumnsOf("sensor: Sensor; state: State; points_error: Error of points; "
-                           "intensity_error: Error of intensity; noise_ratio: Noise ratio; "
-                           "holes_recorded: Holes, recorded; holes_simulated: Holes, simulated"),
-      .is_open = true};
+  Table table = TableOf(kLimitsWords, "sensor");
   std::set<std::pair<std::string, std::string>> seen;
   std::vector<LidarSpec> looked_at;  // A preset is read from its file for each comparison.
   for (const ScenarioSpec& scenario : sample) {
@@ -93,7 +83,9 @@ Section SensorSection(const std::vector<ScenarioSpec>& sample) {
                           figure("noise_ratio"), figure("holes_recorded"),
                           figure("holes_simulated")});
   }
-  return {.key = "sensor", .title = "The sensor", .tables = {std::move(table)}};
+  Section section = SectionOf(kLimitsWords, "sensor");
+  section.tables = {std::move(table)};
+  return section;
 }
 
 Section LimitsSection(const std::vector<ScenarioSpec>& sample, bool has_detector) {
@@ -103,13 +95,7 @@ Section LimitsSection(const std::vector<ScenarioSpec>& sample, bool has_detector
     const bool is_auto = scenario.fidelity == Fidelity::kAuto;
     rungs.emplace(NameOf(is_auto ? Fidelity::kFootprint : scenario.fidelity));
   }
-  Table table{.key = "limits",
-              .title = "What differs from reality",
-              .note =
-                  "On the rungs of these scenarios; docs/effects.md and docs/world.md of railcast "
-                  "have the rest.",
-              .columns = ColumnsOf("real: In reality; model: Modelled; errs: Which way it errs"),
-              .is_open = true};
+  Table table = TableOf(kLimitsWords, "limits");
   for (const Json& row : Json::parse(kLimits)) {
     const bool is_due = std::ranges::any_of(
         row.at("rungs"), [&](const Json& rung) { return rungs.contains(rung.get<std::string>()); });
@@ -117,7 +103,9 @@ Section LimitsSection(const std::vector<ScenarioSpec>& sample, bool has_detector
     table.rows.push_back({row.at("real").get<std::string>(), row.at("model").get<std::string>(),
                           row.at("errs").get<std::string>()});
   }
-  return {.key = "limits", .title = "What is not modelled", .tables = {std::move(table)}};
+  Section section = SectionOf(kLimitsWords, "limits");
+  section.tables = {std::move(table)};
+  return section;
 }
 
 }  // namespace railcast

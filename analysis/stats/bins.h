@@ -12,6 +12,9 @@
 
 namespace railcast {
 
+/// The words of statistics (report/words.h).
+extern const char* const kStatsWords;
+
 /// Half-open bins between rising edges.
 class Bins {
  public:

@@ -5,11 +5,12 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <utility>
 
 #include "analysis/report/cell_text.h"
+#include "analysis/report/words.h"
+#include "analysis/stats/bins.h"
 #include "core/base/text.h"
 #include "core/certify/weighted_shares.h"
 #include "core/io/record/read_record.h"
@@ -34,13 +35,8 @@ Estimate CertifiedEstimate(const std::optional<CertifiedFigure>& figure,
 Table CertifiedTable(std::string key,
                      const std::string& of,
                      const std::vector<CertifiedPart>& parts) {
-  Table table = {
-      std::move(key), "Numerical error by " + of,
-      "Echoes: those of the reference that were drawn. Error of power: |power / the reference's - "
-      "1|.",
-      ColumnsOf("part: Part; echoes: Echoes; missed_percent: Missed; false_percent: False; "
-                "range_p50_mm: Range error, median; range_p95_mm: Range error, 95 % quantile; "
-                "power_p50_percent: Error of power, median; other_label_percent: Other label")};
+  Table table = TableOf(kStatsWords, "certificate_by", {{"of", of}});
+  table.key = std::move(key);
   for (const CertifiedPart& part : parts) {
     const auto of_part = [&](const std::optional<CertifiedFigure>& figure, double factor) {
       return CertifiedEstimate(figure, factor, part.echoes);
@@ -55,10 +51,7 @@ Table CertifiedTable(std::string key,
 }
 
 Table RungsTable(const RunCertificate& certificate) {
-  Table table = {"certificate_rungs", "What other rungs would have given",
-                 "On the same firings. Time: in multiples of the run's own, by the table of costs.",
-                 ColumnsOf("rung: Rung; time_ratio: Time; missed_percent: Missed; "
-                           "false_percent: False")};
+  Table table = TableOf(kStatsWords, "certificate_rungs");
   const std::uint64_t num = certificate.all.echoes;
   const auto add = [&](const std::string& name, double cost, const auto& missed,
                        const auto& wrong) {
@@ -152,23 +145,13 @@ std::optional<RunCertificate> CertificateOf(const std::vector<RecordingInfo>& so
 }
 
 Section MakeCertificateSection(const RunCertificate& certificate) {
-  Section section{
-      "certificate",
-      "Numerical error",
-      {Joined({"What the run's rung leaves out, measured on itself: ", CountText(certificate.drawn),
-               " of ", CountText(certificate.firings),
-               " firings were drawn at random and made anew on rung reference, in the same scene "
-               "and with the same random draws, and their echoes compared before range noise. "
-               "Intervals are of 95 %."})}};
-  std::istringstream lines(CertificateText(certificate));
-  for (std::string line; std::getline(lines, line);) {
-    section.paragraphs.push_back(line.substr(std::min(line.find_first_not_of(' '), line.size())));
-  }
-  if (certificate.without_drawn > 0.0) {
-    section.paragraphs.push_back(Joined({"Of firings of some kinds, ",
-                                         ShortText(kCertifiedPercent * certificate.without_drawn),
-                                         " % of all, none was drawn; others stand for them."}));
-  }
+  const double without = kCertifiedPercent * certificate.without_drawn;
+  Section section = SectionOf(kStatsWords, "certificate",
+                              {{"drawn", CountText(certificate.drawn)},
+                               {"firings", CountText(certificate.firings)},
+                               {"certificate", CertificateText(certificate)},
+                               {"without", without > 0.0 ? ShortText(without) : ""}});
+  for (std::string& line : section.paragraphs) line.erase(0, line.find_first_not_of(' '));
   section.tables.push_back(CertifiedTable("certificate", "part", {certificate.all}));
   if (!certificate.rungs.empty()) section.tables.push_back(RungsTable(certificate));
   section.tables.push_back(CertifiedTable("certificate_by_class", "class", certificate.classes));

@@ -5,6 +5,7 @@
 
 #include "analysis/report/cell_text.h"
 #include "analysis/report/chart_columns.h"
+#include "analysis/report/words.h"
 #include "analysis/stats/bins.h"
 
 namespace railcast {
@@ -14,28 +15,11 @@ std::uint64_t TotalOf(const RangeCounts& counts) {
   return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
 }
 
-Chart LabelsChart(const Table& labels,
-                  const std::string& column,
-                  const std::string& title,
-                  const std::string& caption,
-                  const ChartAxis& y) {
-  return {"label_" + column,
-          title,
-          caption,
-          {"", "", false, TextsOf(labels, "label")},
-          y,
-          {SeriesOf(labels, {"label", column}, "", SeriesStyle::kBars)}};
-}
-
 // Of the labels with most points; more lines would hide each other.
 Chart SharesChart(const Table& shares) {
   constexpr std::size_t kMostLabels = 7;
-  Chart chart = {"shares_by_label_and_range",
-                 "Share of points by label against range",
-                 "The highest line is the class with most of the points at that range; only the "
-                 "labels with most points.",
-                 DistanceAxis("Range"),
-                 {"Share", "%", true}};
+  Chart chart = ChartOf(kStatsWords, "shares_by_label_and_range");
+  chart.x = DistanceAxis("Range");
   chart.series = SeriesByRow(shares, kMostLabels);
   return chart;
 }
@@ -71,14 +55,7 @@ std::vector<std::pair<std::uint32_t, const ClassBalance::Class*>> ClassBalance::
 }
 
 Table ClassBalance::LabelsTable(const Names& names) const {
-  Table table = {
-      "points_by_label",
-      "Points by label",
-      "Frames: those with a point of the label, which the mean is over.",
-      ColumnsOf("label: Label; points: Points; points_percent: Share of points; frames: Frames; "
-                "frames_percent: Share of frames; points_per_frame: Points a frame"),
-      {},
-      true};
+  Table table = TableOf(kStatsWords, "points_by_label");
   std::uint64_t total = 0;
   for (const auto& [label, of] : classes_) total += of.num_points();
   for (const auto& [label, of] : Sorted()) {
@@ -91,10 +68,10 @@ Table ClassBalance::LabelsTable(const Names& names) const {
 
 Section ClassBalance::MakeSection(const Names& names) const {
   Table labels = LabelsTable(names);
-  Table counts = {"points_by_label_and_range", "Points by label and range", "",
-                  DistanceColumns("label: Label")};
-  Table shares = {"shares_by_label_and_range", "Shares by label and range, in percent",
-                  "Of all points in the range.", DistanceColumns("label: Label", "_percent")};
+  Table counts = TableOf(kStatsWords, "points_by_label_and_range");
+  counts.columns = DistanceColumns("label: Label");
+  Table shares = TableOf(kStatsWords, "shares_by_label_and_range");
+  shares.columns = DistanceColumns("label: Label", "_percent");
   RangeCounts totals{};
   for (const auto& [label, of] : classes_) AddTo(totals, of.by_range);
   const auto add_row = [&](const std::string& name, const RangeCounts& by_range) {
@@ -105,19 +82,11 @@ Section ClassBalance::MakeSection(const Names& names) const {
     }
   };
   for (const auto& [label, of] : Sorted()) add_row(names.OfLabel(label), of->by_range);
-  Section section{
-      .key = "classes",
-      .title = "Balance of classes",
-      .paragraphs = {Joined({CountText(TotalOf(totals)), " points in ", CountText(num_frames_),
-                             " frames with labels. Ranges are the measured ones."})},
-      // The labels' points differ by orders of magnitude.
-      .charts = {LabelsChart(labels, "points_percent", "Points by label",
-                             "The shortest bars are the classes that a detector sees least of.",
-                             {"Share of points", "%", true}),
-                 LabelsChart(labels, "frames_percent", "Frames with a point of each label",
-                             "A short bar is a class that most frames do not show at all.",
-                             {"Share of frames", "%"}),
-                 SharesChart(shares)}};
+  Section section =
+      SectionOf(kStatsWords, "classes",
+                {{"totals", CountText(TotalOf(totals))}, {"num_frames", CountText(num_frames_)}});
+  section.charts = {ChartOfTable(kStatsWords, "label_points_percent", labels),
+                    ChartOfTable(kStatsWords, "label_frames_percent", labels), SharesChart(shares)};
   add_row("all", totals);
   section.tables = {std::move(labels), std::move(counts), std::move(shares)};
   return section;

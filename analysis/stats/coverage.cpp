@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "analysis/report/chart_columns.h"
+#include "analysis/report/words.h"
 #include "core/base/units.h"
 #include "core/io/recording/firing_truth.h"
 
@@ -60,49 +60,30 @@ void Coverage::Add(const RecordedFrame& recorded, const ScanTable* scan) {
 }
 
 Section Coverage::MakeSection() const {
-  Section section{"coverage",
-                  "Coverage",
-                  {"Occupancy counts the squares of 1 m, seen from above, that hold a point."}};
-  Table frames = {"frames",
-                  "A frame",
-                  "Means over frames; consecutive frames resemble each other, so that the "
-                  "intervals are those of this stretch of line.",
-                  ColumnsOf("figure: Figure; mean: Mean"),
-                  {{std::string("points"), PointsPerFrame()},
-                   {std::string("squares of 1 m with a point"), OccupiedCells()}}};
+  Section section = SectionOf(kStatsWords, "coverage");
+  Table frames = TableOf(kStatsWords, "frames");
+  frames.rows = {{std::string("points"), PointsPerFrame()},
+                 {std::string("squares of 1 m with a point"), OccupiedCells()}};
   section.tables.push_back(std::move(frames));
 
-  Table rings = {"rings", "Rings", "Firings known to have met the own vehicle do not count.",
-                 ColumnsOf("ring: Ring; elevation_deg: Elevation; firings: Firings; "
-                           "with_point_percent: With a point")};
+  Table rings = TableOf(kStatsWords, "rings");
   for (std::size_t i = 0; i < rings_.size(); ++i) {
     rings.rows.push_back({std::uint64_t{i}, rings_[i].elevation_deg.PlainMean(),
                           rings_[i].num_firings,
                           PercentProportion(rings_[i].num_points, rings_[i].num_firings)});
   }
   if (!rings_.empty()) {
-    section.charts.push_back({"rings",
-                              "Firings with a point by ring",
-                              "Low rings look into the open, or lose their points.",
-                              {"Ring, 0 the lowest", ""},
-                              {"Share", "%"},
-                              {SeriesOf(rings, {"ring", "with_point_percent"}, "share")}});
+    section.charts.push_back(ChartOfTable(kStatsWords, "rings", rings));
     section.tables.push_back(std::move(rings));
   }
 
-  Table sectors = {"azimuth", "Azimuth", "",
-                   ColumnsOf("azimuth_deg: Azimuth, left positive; points: Points a frame")};
+  Table sectors = TableOf(kStatsWords, "azimuth");
   for (std::size_t i = 0; i < sectors_.size(); ++i) {
     const double middle_deg = -180.0 + (static_cast<double>(i) + 0.5) * kSector_deg;
     const Estimate rate = PoissonRate(sectors_[i], static_cast<double>(num_frames()));
     if (sectors_[i] > 0) sectors.rows.push_back({middle_deg, rate});
   }
-  section.charts.push_back({"azimuth",
-                            "Points by azimuth",
-                            "High is where there is much to be met, or where beams are dense.",
-                            {"Azimuth, left positive", "deg"},
-                            {"Points per 5 deg and frame", ""},
-                            {SeriesOf(sectors, {"azimuth_deg", "points"}, "points")}});
+  section.charts.push_back(ChartOfTable(kStatsWords, "azimuth", sectors));
   section.tables.push_back(std::move(sectors));
   return section;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "analysis/report/chart_columns.h"
+#include "analysis/report/words.h"
 #include "analysis/stats/bins.h"
 #include "core/base/units.h"
 #include "core/io/recording/firing_truth.h"
@@ -88,11 +89,7 @@ std::uint64_t NumPoints(const Density::Curve& curve) {
 }
 
 Table LawTable(const NamedCurves& curves) {
-  Table table = {"density_laws", "Fitted power laws",
-                 "density = factor x range^exponent, from the bins with 10 points or more; samples "
-                 "of the exponent are bins.",
-                 ColumnsOf("surface: Surface; points: Points; exponent: Exponent; "
-                           "per_m2_at_10_m [1/m²]: Density at 10 m")};
+  Table table = TableOf(kStatsWords, "density_laws");
   for (const auto& [name, curve] : curves) {
     const PowerLaw law = Density::LawOf(*curve);
     constexpr double kReference_m = 10.0;
@@ -102,11 +99,7 @@ Table LawTable(const NamedCurves& curves) {
 }
 
 Table CurveTable(const NamedCurves& curves) {
-  Table table = {"density_by_range", "Density by range",
-                 "Intervals are those of counts of independent points (Garwood): wider than a "
-                 "regular grid needs.",
-                 ColumnsOf("surface: Surface; range_m: Range; area_m2: Area seen; per_m2: Density; "
-                           "per_sr: Density")};
+  Table table = TableOf(kStatsWords, "density_by_range");
   for (const auto& [name, curve] : curves) {
     for (std::size_t i = 0; i < curve->size(); ++i) {
       const Density::Count& count = (*curve)[i];
@@ -126,13 +119,7 @@ Chart CurveChart(NamedCurves curves) {
     return NumPoints(*a.second) > NumPoints(*b.second);
   });
   if (curves.size() > kMaxSeries) curves.resize(kMaxSeries);
-  return {"density_by_range",
-          "Points per square metre of surface against range",
-          "A line that falls more steeply than the others loses points: without losses a uniform "
-          "raster gives -3 on level ground and -2 on faces met under one incidence.",
-          {"Range", "m", true},
-          {"Density", "1/m²", true},
-          SeriesByName(CurveTable(curves), {"range_m", "per_m2", "", "surface"})};
+  return ChartOfTable(kStatsWords, "density_by_range", CurveTable(curves));
 }
 
 }  // namespace
@@ -190,21 +177,12 @@ void Density::AddFromPoints(const Frame& frame, const ScanTable& scan) {
 }
 
 Section Density::MakeSection(const Names& names) const {
-  Section section{"density", "Density against range"};
+  Section section =
+      SectionOf(kStatsWords, "density",
+                {{"by_label", !by_label_.empty()}, {"by_attitude", !by_attitude_.empty()}});
   NamedCurves curves;
   for (const auto& [label, curve] : by_label_) curves.emplace_back(names.OfLabel(label), &curve);
-  if (!by_label_.empty()) {
-    section.paragraphs.emplace_back(
-        "Points on a surface per square metre of it: each firing that met it stands for its solid "
-        "angle x range^2 / cos(incidence), with a point or not.");
-  }
   for (const auto& [attitude, curve] : by_attitude_) curves.emplace_back(attitude, &curve);
-  if (!by_attitude_.empty()) {
-    section.paragraphs.emplace_back(
-        "From the points alone: the area between a firing's four neighbours in the grid where they "
-        "lie on one surface, with a point of its own on it or without any. Level: its normal is "
-        "within 20 deg of up (of the sensor's z axis); upright: beyond 70 deg.");
-  }
   section.tables = {LawTable(curves), CurveTable(curves)};
   section.charts = {CurveChart(curves)};
   return section;

@@ -9,6 +9,7 @@
 
 #include "analysis/estimate/estimate.h"
 #include "analysis/report/chart_columns.h"
+#include "analysis/report/words.h"
 #include "analysis/stats/sums.h"
 
 namespace railcast {
@@ -121,14 +122,7 @@ void ForEachGrade(Visitor&& visit) {
 }
 
 Table GradesTable(const Difficulty::Counts& total) {
-  Table table = {
-      "difficulty",
-      "Objects and points by difficulty",
-      "Objects are counted in each frame. Points: those on objects of the grade.",
-      ColumnsOf("scale: Scale; grade: Grade; objects: Objects; objects_percent: Share of objects; "
-                "points: Points; points_percent: Share of points on objects"),
-      {},
-      true};
+  Table table = TableOf(kStatsWords, "difficulty");
   Difficulty::Count all;  // The same in each scale.
   for (const Difficulty::Count& count : total.front()) AddTo(all, count);
   ForEachGrade([&](std::size_t scale, std::size_t grade, std::string title, std::string name) {
@@ -141,9 +135,7 @@ Table GradesTable(const Difficulty::Counts& total) {
 }
 
 Table LabelGradesTable(const std::map<std::string, Difficulty::Counts>& by_label) {
-  Table table = {
-      "difficulty_by_label", "Difficulty by label", "",
-      ColumnsOf("label: Label; scale: Scale; grade: Grade; objects: Objects; points: Points")};
+  Table table = TableOf(kStatsWords, "difficulty_by_label");
   for (const auto& [label, counts] : by_label) {
     ForEachGrade([&](std::size_t scale, std::size_t grade, std::string title, std::string name) {
       const Difficulty::Count& count = counts.at(scale).at(grade);
@@ -154,9 +146,8 @@ Table LabelGradesTable(const std::map<std::string, Difficulty::Counts>& by_label
 }
 
 Table DistanceGradesTable(const Difficulty::Counts& total) {
-  Table table = {"difficulty_by_distance", "Objects by difficulty and distance",
-                 "By the distance of the box's middle.",
-                 DistanceColumns("scale: Scale; grade: Grade")};
+  Table table = TableOf(kStatsWords, "difficulty_by_distance");
+  table.columns = DistanceColumns("scale: Scale; grade: Grade");
   ForEachGrade([&](std::size_t scale, std::size_t grade, std::string title, std::string name) {
     table.rows.push_back(
         RowOf({std::move(title), std::move(name)}, total.at(scale).at(grade).by_distance));
@@ -167,11 +158,8 @@ Table DistanceGradesTable(const Difficulty::Counts& total) {
 // Shares of the objects at each distance.
 Chart GradesChart(const Difficulty::Counts& total, std::size_t scale) {
   const ScaleText& text = kScales.at(scale);
-  Chart chart = {"difficulty_" + std::string(text.key),
-                 std::string(text.title) + ", by distance",
-                 "Of the objects at each distance.",
-                 DistanceAxis("Distance"),
-                 {"Share of objects", "%"}};
+  Chart chart = ChartOf(kStatsWords, "difficulty_" + std::string(text.key));
+  chart.x = DistanceAxis("Distance");
   for (std::size_t grade = 0; grade < Difficulty::kMostGrades; ++grade) {
     ChartSeries series{std::string(text.grades.at(grade)), SeriesStyle::kLinePoints};
     for (std::size_t bin = 0; bin < kNumDistanceBins; ++bin) {
@@ -230,15 +218,7 @@ void Difficulty::Add(const RecordedFrame& recorded, const ScanTable* scan) {
 
 Section Difficulty::MakeSection() const {
   const Counts total = Total(by_label_);
-  Section section{"difficulty", "How hard objects are to detect"};
-  section.paragraphs = {
-      "Objects that some beam would meet if nothing hid them, in each frame, by what data sets "
-      "grade them by. KITTI's grades are for its images; here an object has the height that it has "
-      "for a camera like KITTI's which looks at it (40 px for easy, 25 px for the others), is "
-      "partly occluded from a hidden share of 0.1 and largely from 0.5, and truncated by the field "
-      "of view of the lidar (15, 30 and 50 % at most). Each grade is without those before it.",
-      "Truncation is the share of the box outside the sensor's field of view; of patterns that are "
-      "no grid it is unknown and taken as none."};
+  Section section = SectionOf(kStatsWords, "difficulty");
   section.charts = {GradesChart(total, static_cast<std::size_t>(Scale::kKitti)),
                     GradesChart(total, static_cast<std::size_t>(Scale::kOcclusion))};
   section.tables = {GradesTable(total), LabelGradesTable(by_label_), DistanceGradesTable(total)};

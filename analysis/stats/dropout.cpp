@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "analysis/report/chart_columns.h"
+#include "analysis/report/words.h"
 #include "analysis/stats/bins.h"
 #include "core/base/units.h"
 #include "core/io/recording/firing_truth.h"
@@ -17,10 +18,8 @@ constexpr Outcome kCauses[] = {Outcome::kOutOfRange,    Outcome::kBelowThreshold
                                Outcome::kRainAbsorbed,  Outcome::kNearRange,
                                Outcome::kSensorDropout, Outcome::kCoverBlocked};
 
-// @param first Its first column.
-Table GroupTable(const Grouped<Count>& counts, GroupBy by, const Names& names, const char* first) {
-  Table table;
-  table.columns = ColumnsOf(first + std::string("; firings: Firings; dropout_percent: Dropout"));
+Table GroupTable(const Grouped<Count>& counts, GroupBy by, const Names& names, const char* what) {
+  Table table = TableOf(kStatsWords, std::string("dropout_by_") + what);
   std::vector<Outcome> causes;
   for (const Outcome cause : kCauses) {
     if (std::ranges::none_of(counts.Of(by),
@@ -43,12 +42,7 @@ Table GroupTable(const Grouped<Count>& counts, GroupBy by, const Names& names, c
 
 // Dropout by range for all causes together and for each.
 Chart DropoutChart(const Table& table) {
-  Chart chart = {table.key,
-                 "Dropout against range",
-                 "The highest line below all causes is what loses most at that range: shares of "
-                 "the firings that met a surface there and brought no point of it back.",
-                 {"True range", "m"},
-                 {"Dropout", "%"}};
+  Chart chart = ChartOf(kStatsWords, table.key);
   for (std::size_t i = 2; i < table.columns.size(); ++i) {
     const TableColumn& column = table.columns[i];
     chart.series.push_back(SeriesOf(table, {"true_range_m", column.key},
@@ -58,13 +52,7 @@ Chart DropoutChart(const Table& table) {
 }
 
 Chart LabelChart(const Table& table) {
-  return {table.key,
-          "Dropout by label",
-          "The longest bars are the surfaces that lose most points, over all ranges, with 95 % "
-          "intervals.",
-          {"Label", "", false, TextsOf(table, "label")},
-          {"Dropout", "%"},
-          {SeriesOf(table, {"label", "dropout_percent"}, "dropout", SeriesStyle::kBars)}};
+  return ChartOfTable(kStatsWords, table.key, table);
 }
 
 }  // namespace
@@ -92,16 +80,9 @@ Estimate Dropout::Share() const {
 }
 
 Section Dropout::MakeSection(const Names& names) const {
-  Section section{
-      "dropout",
-      "Dropout, exact",
-      {"Counted from the outcome of every firing. Dropout is the share of the firings that met a "
-       "surface within reach and brought no point of it back; firings into the open had nothing to "
-       "lose. Where clutter answered, the surface behind is unknown: those firings stand in the "
-       "first table only. Intervals take firings as independent (Wilson)."}};
+  Section section = SectionOf(kStatsWords, "dropout");
 
-  Table outcomes = {"outcomes", "What became of all firings", "",
-                    ColumnsOf("outcome: Outcome; firings: Firings; share_percent: Share")};
+  Table outcomes = TableOf(kStatsWords, "outcomes");
   for (std::size_t i = 0; i < kOutcomeNames.size(); ++i) {
     const std::uint64_t num = all_.outcomes[i];
     if (num == 0) continue;
@@ -109,20 +90,17 @@ Section Dropout::MakeSection(const Names& names) const {
   }
   section.tables.push_back(std::move(outcomes));
 
-  const auto add = [&](const char* what, GroupBy by, const char* column,
-                       Chart (*chart_of)(const Table&) = nullptr) {
+  const auto add = [&](const char* what, GroupBy by, Chart (*chart_of)(const Table&) = nullptr) {
     if (groups_.Of(by).empty()) return;
-    Table table = GroupTable(groups_, by, names, column);
-    table.key = std::string("dropout_by_") + what;
-    table.title = std::string("Dropout by ") + what;
+    Table table = GroupTable(groups_, by, names, what);
     if (chart_of != nullptr) section.charts.push_back(chart_of(table));
     section.tables.push_back(std::move(table));
   };
-  add("range", GroupBy::kRange, "true_range_m: True range", DropoutChart);
-  add("incidence", GroupBy::kIncidence, "incidence_deg: Incidence");
-  add("label", GroupBy::kLabel, "label: Label", LabelChart);
-  add("material", GroupBy::kMaterial, "material: Material");
-  add("ring", GroupBy::kRing, "ring: Ring");
+  add("range", GroupBy::kRange, DropoutChart);
+  add("incidence", GroupBy::kIncidence);
+  add("label", GroupBy::kLabel, LabelChart);
+  add("material", GroupBy::kMaterial);
+  add("ring", GroupBy::kRing);
   return section;
 }
 

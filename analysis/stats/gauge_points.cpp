@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "analysis/report/cell_text.h"
+#include "analysis/report/words.h"
 #include "analysis/stats/bins.h"
 #include "core/base/error.h"
 
@@ -28,11 +29,8 @@ void GaugePoints::Add(const RecordedFrame& recorded, const FrameTrack& track) {
 }
 
 Section GaugePoints::MakeSection(const Names& names) const {
-  Table table{.key = "points_in_gauge",
-              .title = "Points in the gauge by label and range",
-              .note = "The last row is the share of all points of the range, wherever they are.",
-              .columns = DistanceColumns("label: Label"),
-              .is_open = true};
+  Table table = TableOf(kStatsWords, "points_in_gauge");
+  table.columns = DistanceColumns("label: Label");
   RangeCounts sums{};
   for (const auto& [label, counts] : in_gauge_) {
     table.rows.push_back(RowOf({label == 0 ? "no label" : names.OfLabel(label)}, counts));
@@ -41,13 +39,12 @@ Section GaugePoints::MakeSection(const Names& names) const {
   std::vector<Cell>& shares = table.rows.emplace_back(1, "share, percent");
   for (std::size_t i = 0; i < sums.size(); ++i) shares.emplace_back(Percent(sums[i], all_[i]));
   const std::uint64_t num = std::accumulate(sums.begin(), sums.end(), std::uint64_t{0});
-  return {
-      .key = "gauge",
-      .title = "In the gauge",
-      .paragraphs = {Joined({CountText(num), " points in the vehicle's outline on the track, in ",
-                             CountText(num_frames_with_any_), " of ", CountText(num_frames_),
-                             " frames. Noise puts some points of the rails' heads into it."})},
-      .tables = {std::move(table)}};
+  Section section = SectionOf(kStatsWords, "gauge",
+                              {{"num", CountText(num)},
+                               {"num_frames_with_any", CountText(num_frames_with_any_)},
+                               {"num_frames", CountText(num_frames_)}});
+  section.tables.push_back(std::move(table));
+  return section;
 }
 
 }  // namespace railcast

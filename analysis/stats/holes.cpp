@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "analysis/report/chart_columns.h"
+#include "analysis/report/words.h"
 #include "core/io/recording/firing_truth.h"
 
 namespace railcast {
@@ -50,10 +51,6 @@ bool HasPoints(const Frame& frame, std::size_t column) {
     if (std::isfinite(Range_m(frame, row, column))) return true;
   }
   return false;
-}
-
-Table HoleTable(const char* key, const char* title, const std::string& column) {
-  return {key, title, "", ColumnsOf(column + "; expected: Expected; holes_percent: Holes")};
 }
 
 void AddRow(const Cell& name, const HoleCount& count, Table& table) {
@@ -134,54 +131,31 @@ void Holes::AddFiring(const Frame& frame, std::size_t row, std::size_t column) {
 }
 
 Section Holes::MakeSection() const {
-  Section section{
-      "holes",
-      "Dropout, estimated",
-      {"From the points alone, as for any sensor: a firing whose two neighbours in its ring lie on "
-       "one surface (ranges within 5 % or 0.1 m) should have met it, too; without a point it is a "
-       "hole. Exact if losses are independent of each other, a lower bound where they cluster: "
-       "dark, far and grazing patches. Columns without any point count as never fired, so that "
-       "half a turn is not half a loss; firings known to have met the own vehicle do not count. "
-       "What the sensor itself loses shows in smooth surfaces of one brightness: four points on "
-       "either side on a line to 3 cm, the brightest at most 1.5 times as bright as the darkest "
-       "plus 0.01."}};
+  Section section = SectionOf(kStatsWords, "holes");
 
-  Table fill = {"grid",
-                "The grid",
-                "",
-                ColumnsOf("figure: Figure; num: Firings; share_percent: Share"),
-                {{std::string("firings with a point (the rest: sky, too far, lost)"), num_firings_,
-                  Scaled(Filled(), 100.0)},
-                 {std::string("holes among firings between two points of one surface"),
-                  all_.num_expected, Scaled(Share(), 100.0)}}};
+  Table fill = TableOf(kStatsWords, "grid");
+  fill.rows = {{std::string("firings with a point (the rest: sky, too far, lost)"), num_firings_,
+                Scaled(Filled(), 100.0)},
+               {std::string("holes among firings between two points of one surface"),
+                all_.num_expected, Scaled(Share(), 100.0)}};
   section.tables.push_back(std::move(fill));
   const auto table_of = [&](GroupBy by, Table table) {
     groups_.ForEach(by, Names(RecordingInfo{}),
                     [&](const Cell& name, const Count& count) { AddRow(name, count, table); });
     return table;
   };
-  Table by_range = table_of(GroupBy::kRange, HoleTable("holes_by_range", "Holes by range",
-                                                       "range_m: Range of the neighbours"));
-  section.charts.push_back({"holes_by_range",
-                            "Holes in surfaces against range",
-                            "Where the line rises, surfaces lose points: the share of the firings "
-                            "between two points of one surface that have none.",
-                            {"Range", "m"},
-                            {"Holes", "%"},
-                            {SeriesOf(by_range, {"range_m", "holes_percent"}, "holes")}});
+  Table by_range = table_of(GroupBy::kRange, TableOf(kStatsWords, "holes_by_range"));
+  section.charts.push_back(ChartOfTable(kStatsWords, "holes_by_range", by_range));
   section.tables.push_back(std::move(by_range));
   if (const auto& counts = smooth_.by_intensity(); !counts.empty()) {
-    Table smooth =
-        HoleTable("smooth_holes_by_intensity", "Holes in smooth surfaces of one brightness",
-                  "intensity: Intensity of the neighbours");
+    Table smooth = TableOf(kStatsWords, "smooth_holes_by_intensity");
     for (std::size_t i = 0; i < counts.size(); ++i) {
       AddRow(SmoothHoles::Intensities().span(i), counts[i].firings, smooth);
     }
     section.tables.push_back(std::move(smooth));
   }
   if (has_rings_) {
-    section.tables.push_back(
-        table_of(GroupBy::kRing, HoleTable("holes_by_ring", "Holes by ring", "ring: Ring")));
+    section.tables.push_back(table_of(GroupBy::kRing, TableOf(kStatsWords, "holes_by_ring")));
   }
   return section;
 }

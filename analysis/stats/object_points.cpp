@@ -1,6 +1,7 @@
 #include "analysis/stats/statistics.h"
 
 #include "analysis/report/chart_columns.h"
+#include "analysis/report/words.h"
 #include "analysis/stats/bins.h"
 #include "core/io/recording/firing_truth.h"
 
@@ -48,27 +49,15 @@ void ObjectPoints::Add(const RecordedFrame& recorded) {
 }
 
 Section ObjectPoints::MakeSection() const {
-  Section section{"objects",
-                  "Points on objects",
-                  {"By the distance of the box's middle; frames in which the object is out of the "
-                   "sensor's sight even alone do not count."}};
-  Table table = {
-      "object_points", "Points on each object by distance",
-      "Samples are frames. Returned: of the beams that met the object, those that came back.",
-      ColumnsOf("object: Object; label: Label; distance_m: Distance; points: Points a frame; "
-                "returned_percent: Returned")};
+  Section section = SectionOf(kStatsWords, "objects");
+  Table table = TableOf(kStatsWords, "object_points");
   for (const auto& [name, object] : objects_) {
     for (const auto& [bin, of] : object.bins) {
       table.rows.push_back({name, object.label, RangeBins().span(bin), of.points.Mean(),
                             PercentProportion(of.num_returned, of.num_met)});
     }
   }
-  section.charts.push_back({"object_points",
-                            "Points on objects against distance",
-                            "How far away each object still has points enough to be found.",
-                            {"Distance", "m"},
-                            {"Points a frame", "", true},
-                            SeriesByName(table, {"distance_m", "points", "", "object"})});
+  section.charts.push_back(ChartOfTable(kStatsWords, "object_points", table));
   section.tables.push_back(std::move(table));
   return section;
 }

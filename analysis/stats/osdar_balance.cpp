@@ -1,8 +1,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/estimate/estimate.h"
-#include "analysis/report/cell_text.h"
 #include "analysis/report/chart_columns.h"
+#include "analysis/report/words.h"
 #include "analysis/stats/difficulty.h"
 
 namespace railcast {
@@ -45,34 +45,14 @@ Section MakeOsdarBalanceSection(const Difficulty& objects, const LabelTable& lab
     classes[name].osdar = num;
     all.osdar += classes[name].osdar;
   }
-  Table table = {
-      "osdar_balance",
-      "Objects by class, beside OSDaR23",
-      Joined({"Objects with points, counted in each frame. OSDaR23: cuboids of its lidar; ",
-              osdar.at("source").get<std::string>(), "."}),
-      ColumnsOf("class: Class; objects: Objects; objects_percent: Share; osdar23_cuboids: OSDaR23; "
-                "osdar23_percent: Share in OSDaR23"),
-      {},
-      true};
+  Table table =
+      TableOf(kStatsWords, "osdar_balance", {{"source", osdar.at("source").get<std::string>()}});
   for (const auto& [name, counts] : classes) {
     table.rows.push_back({name, counts.here, Percent(counts.here, all.here), counts.osdar,
                           Percent(counts.osdar, all.osdar)});
   }
-  Section section{"osdar_balance", "Objects beside OSDaR23"};
-  section.paragraphs = {
-      "OSDaR23's shares are those of ten frames of one place, whose labels are at hand, and not of "
-      "the whole data set. Its catenary poles have cuboids, whereas masts are no objects here. "
-      "Shares of its points are not at hand."};
-  section.charts.push_back(
-      {"osdar_balance",
-       "Objects by class",
-       "Where the bar of this data is much the shorter, a detector trained on it sees too few of "
-       "that class.",
-       {"", "", false, TextsOf(table, "class")},
-       {"Share", "%"},
-       {SeriesOf(table, {"class", "objects_percent"}, "here", SeriesStyle::kBars),
-        SeriesOf(table, {"class", "osdar23_percent"}, "OSDaR23 (one sequence)",
-                 SeriesStyle::kBars)}});
+  Section section = SectionOf(kStatsWords, "osdar_balance");
+  section.charts.push_back(ChartOfTable(kStatsWords, "osdar_balance", table));
   section.tables.push_back(std::move(table));
   return section;
 }

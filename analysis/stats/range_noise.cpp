@@ -4,9 +4,9 @@
 
 #include "analysis/estimate/estimate.h"
 #include "analysis/report/chart_columns.h"
+#include "analysis/report/words.h"
 #include "analysis/stats/bins.h"
 #include "core/base/units.h"
-#include "core/io/recording/firing_truth.h"
 
 namespace railcast {
 namespace {
@@ -26,13 +26,7 @@ double MedianOfSigma(double degrees) {
 }
 
 Table NoisePlaneTable(const std::vector<Noise::Planes>& planes) {
-  Table table = {
-      "noise_from_planes", "Noise about local planes",
-      "Samples are patches of about 25 points. Robust: median over patches. Roughness counts as "
-      "noise.",
-      ColumnsOf("range_m: Range; points: Points; outliers_percent: Outliers; range_sigma_mm: Along "
-                "the beam; robust_range_sigma_mm: Along the beam, robust; plane_sigma_mm: Square "
-                "to the plane; robust_plane_sigma_mm: Square to the plane, robust")};
+  Table table = TableOf(kStatsWords, "noise_from_planes");
   for (std::size_t i = 0; i < planes.size(); ++i) {
     const Noise::Planes& bin = planes[i];
     if (bin.num_points == 0) continue;
@@ -45,14 +39,7 @@ Table NoisePlaneTable(const std::vector<Noise::Planes>& planes) {
 }
 
 Table PclTable(const std::vector<Noise::Planes>& planes) {
-  Table table = {
-      "noise_by_pcl", "The same planes by PCL's own estimators",
-      "Medians over patches, from the same points: PCL's plane by RANSAC, fitted; its normals from "
-      "12 points each. Of one plane its normals spread by noise alone.",
-      ColumnsOf(
-          "range_m: Range; plane_sigma_mm: Square to the plane, PCL; robust_plane_sigma_mm: Square "
-          "to the plane, as above; turn_deg: Between both planes; normals_deg: Spread of normals, "
-          "PCL; pcl_outliers_percent: Outliers, PCL; outliers_percent: Outliers, as above")};
+  Table table = TableOf(kStatsWords, "noise_by_pcl");
   for (std::size_t i = 0; i < planes.size(); ++i) {
     const Noise::Planes& bin = planes[i];
     const std::uint64_t num_points = bin.num_points + bin.num_outliers;
@@ -68,9 +55,7 @@ Table PclTable(const std::vector<Noise::Planes>& planes) {
 }
 
 Table TruthTable(const std::vector<Scatter>& truth) {
-  Table table = {"noise_from_truth", "Measured less true range", "Of all points on surfaces.",
-                 ColumnsOf("range_m: Range; bias_mm: Bias; sigma_mm: Standard deviation; "
-                           "robust_sigma_mm: Standard deviation, robust")};
+  Table table = TableOf(kStatsWords, "noise_from_truth");
   for (std::size_t i = 0; i < truth.size(); ++i) {
     if (truth[i].num() == 0) continue;
     table.rows.push_back({RangeBins().span(i), Scaled(truth[i].plain.Mean(), kMm),
@@ -124,28 +109,14 @@ void Noise::Add(const RecordedFrame& recorded, const std::vector<PlanePatch>& pa
 }
 
 Section Noise::MakeSection() const {
-  Section section{"noise",
-                  "Range noise",
-                  {"From small flat pieces of surface: RANSAC, then least squares without "
-                   "outliers, met under less than 60 deg. Along the beam it is the range noise of "
-                   "a sensor that errs along its beams; square to the plane, that of positions "
-                   "that err alike in all directions, as the published noise does. What is rough "
-                   "counts as noise: on ballast and grass this is an upper bound."}};
+  Section section = SectionOf(kStatsWords, "noise", {{"has_truth", !truth_.empty()}});
   const Table planes = NoisePlaneTable(planes_);
-  Chart chart = {
-      "noise_by_range",
-      "Range noise against range",
-      "A line that rises is noise that grows with range; robust estimates.",
-      {"Range", "m"},
-      {"Standard deviation", "mm"},
-      {SeriesOf(planes, {"range_m", "robust_range_sigma_mm"}, "planes, along the beam"),
-       SeriesOf(planes, {"range_m", "robust_plane_sigma_mm"}, "planes, square to them")}};
+  Chart chart = ChartOfTable(kStatsWords, "noise_by_range", planes);
   if (!truth_.empty()) {
     const Table truth = TruthTable(truth_);
     chart.series.push_back(
         SeriesOf(truth, {"range_m", "robust_sigma_mm"}, "measured less true range"));
     section.tables.push_back(truth);
-    section.paragraphs.emplace_back("Frames hold the truth: measured less true range is exact.");
   }
   section.tables.push_back(planes);
   section.tables.push_back(PclTable(planes_));

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <optional>
 
-#include "analysis/report/chart_columns.h"
+#include "analysis/report/words.h"
 #include "analysis/stats/bins.h"
 #include "analysis/stats/column_finder.h"
 
@@ -100,45 +100,21 @@ void TemporalNoise::Add(const RecordedFrame& earlier,
 
 Section TemporalNoise::MakeSection() const {
   constexpr double kMm = 1e3;
-  Section section{"temporal_noise", "Temporal noise"};
-  std::string found = std::to_string(num_pairs_);
-  found += " pairs of frames took part";
-  if (num_moved_ > 0) {
-    found += "; in ";
-    found += std::to_string(num_moved_);
-    found += " more the sensor moved";
-  }
-  found += ".";
-  section.paragraphs.push_back(std::move(found));
-  if (num_without_pose_ > 0) {
-    section.paragraphs.emplace_back(
-        "The recording does not say how the sensor moved: it is taken to stand. What differs from "
-        "frame to frame is noise only if that is true.");
-  }
-  if (num_pairs_ == 0) {
-    section.paragraphs.emplace_back("Not enough: it takes two frames from one place.");
-    return section;
-  }
-  if (num_pairs_ < kMinSamples) {
-    section.paragraphs.emplace_back(
-        "Few pairs: their firings are many, but they share a few moments. What changes more slowly "
-        "(warming up, vibration) is not in these intervals.");
-  }
-  Table table = {"temporal_noise", "Range noise between frames of a standing sensor",
-                 "Standard deviation of the differences of paired firings / sqrt(2).",
-                 ColumnsOf("range_m: Range; sigma_mm: Standard deviation; "
-                           "robust_sigma_mm: Standard deviation, robust")};
+  const bool is_any = num_pairs_ > 0;
+  Section section = SectionOf(kStatsWords, "temporal_noise",
+                              {{"num_pairs", std::to_string(num_pairs_)},
+                               {"num_moved", num_moved_ > 0 ? std::to_string(num_moved_) : ""},
+                               {"without_pose", num_without_pose_ > 0},
+                               {"none", !is_any},
+                               {"few", is_any && num_pairs_ < kMinSamples}});
+  if (!is_any) return section;
+  Table table = TableOf(kStatsWords, "temporal_noise");
   for (std::size_t i = 0; i < bins_.size(); ++i) {
     if (bins_[i].differences_m.num() == 0) continue;
     table.rows.push_back({RangeBins().span(i), Scaled(bins_[i].Sigma_m(), kMm),
                           Scaled(bins_[i].RobustSigma_m(), kMm)});
   }
-  section.charts.push_back({"temporal_noise_by_range",
-                            "Temporal noise against range",
-                            "A line that rises is noise that grows with range.",
-                            {"Range", "m"},
-                            {"Standard deviation", "mm"},
-                            {SeriesOf(table, {"range_m", "robust_sigma_mm"}, "robust")}});
+  section.charts.push_back(ChartOfTable(kStatsWords, "temporal_noise_by_range", table));
   section.tables.push_back(std::move(table));
   return section;
 }

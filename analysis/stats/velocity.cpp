@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "analysis/report/chart_columns.h"
+#include "analysis/report/words.h"
 #include "analysis/stats/bins.h"
 
 namespace railcast {
@@ -12,17 +12,7 @@ namespace {
 constexpr double kFastest_mps = 1000.0;
 
 Table VelocityTable(const std::vector<Velocity::Sum>& sums, bool has_truth) {
-  std::string columns =
-      "range_m: Range; points: Points; share_percent: Share with a velocity; mean_mps: Mean";
-  if (has_truth) {
-    columns +=
-        "; bias_mps: Bias; sigma_mps: Standard deviation; "
-        "robust_sigma_mps: Standard deviation, robust";
-  }
-  Table table = {
-      "velocity_by_range", "Velocity by range",
-      has_truth ? "Bias and standard deviations are those of measured less true velocity." : "",
-      ColumnsOf(columns)};
+  Table table = TableOf(kStatsWords, "velocity_by_range", {{"has_truth", has_truth}});
   for (std::size_t i = 0; i < sums.size(); ++i) {
     const Velocity::Sum& sum = sums[i];
     if (sum.num_points == 0) continue;
@@ -39,8 +29,7 @@ Table VelocityTable(const std::vector<Velocity::Sum>& sums, bool has_truth) {
 }
 
 Table DistributionTable(const std::map<std::int64_t, std::uint64_t>& distribution) {
-  Table table = {"velocities", "Points by velocity", "",
-                 ColumnsOf("velocity_mps: Velocity; points: Points; share_percent: Share")};
+  Table table = TableOf(kStatsWords, "velocities");
   std::uint64_t num_all = 0;
   for (const auto& [bin, num] : distribution) num_all += num;
   for (const auto& [bin, num] : distribution) {
@@ -75,33 +64,13 @@ void Velocity::Add(const RecordedFrame& recorded) {
 }
 
 Section Velocity::MakeSection() const {
-  Section section{"velocity",
-                  "Velocity along the beams",
-                  {"Of points, as measured: positive is receding. What stands still has the "
-                   "sensor's own motion."},
-                  {},
-                  {VelocityTable(by_range_, has_truth_), DistributionTable(distribution_)}};
+  Section section = SectionOf(kStatsWords, "velocity", {{"has_truth", has_truth_}});
+  section.tables = {VelocityTable(by_range_, has_truth_), DistributionTable(distribution_)};
   if (has_truth_) {
-    section.paragraphs.emplace_back(
-        "Frames hold the truth. A velocity that the sensor folds is wrong by the whole span; false "
-        "echoes have no true velocity and are left out. The robust figure hardly knows either.");
-    const Table& table = section.tables.front();
     section.charts.push_back(
-        {"velocity_noise_by_range",
-         "Noise of velocity against range",
-         "A line that rises is an error of measured less true velocity that grows with range.",
-         {"Range", "m"},
-         {"Standard deviation", "m/s"},
-         {SeriesOf(table, {"range_m", "sigma_mps"}, "plain"),
-          SeriesOf(table, {"range_m", "robust_sigma_mps"}, "robust")}});
+        ChartOfTable(kStatsWords, "velocity_noise_by_range", section.tables.front()));
   }
-  section.charts.push_back(
-      {"velocities",
-       "Points by velocity",
-       "The highest peak is what stands still, moving at the sensor's own speed; bins of 2 m/s.",
-       {"Velocity", "m/s"},
-       {"Share", "%", true},
-       {SeriesOf(section.tables.back(), {"velocity_mps", "share_percent"}, "points")}});
+  section.charts.push_back(ChartOfTable(kStatsWords, "velocities", section.tables.back()));
   return section;
 }
 

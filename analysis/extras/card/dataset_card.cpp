@@ -8,6 +8,7 @@
 
 #include "analysis/extras/card/dataset_overview.h"
 #include "analysis/limits/limit_sections.h"
+#include "analysis/report/words.h"
 #include "analysis/stats/statistics.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -55,32 +56,17 @@ SeenScenarios LookAtScenarios(const std::vector<fs::path>& sequences) {
 }
 
 Section LicenceSection(const std::string& licence, const SeenScenarios& seen) {
-  Section section{
-      .key = "licence",
-      .title = "Licence and sources",
-      .paragraphs = {
-          licence.empty() ? "No licence is stated here: ask whoever gives this data set away."
-                          : "Licence: " + licence + ".",
-          std::string(seen.has_recordings
-                          ? "Objects were simulated by railcast and put into recordings."
-                          : "Points, poses, boxes and labels were simulated by railcast; no person "
-                            "was recorded.") +
-              " Maps, meshes and recordings that were read keep the licences of their owners."}};
+  Section section = SectionOf(kCardWords, "licence",
+                              {{"licence", licence}, {"has_recordings", seen.has_recordings}});
   if (seen.attributions.empty()) return section;
-  Table table = {.key = "attributions",
-                 .title = "Where the lines come from",
-                 .columns = ColumnsOf("attribution: Attribution"),
-                 .is_open = true};
+  Table table = TableOf(kCardWords, "attributions");
   for (const std::string& attribution : seen.attributions) table.rows.push_back({attribution});
   section.tables.push_back(std::move(table));
   return section;
 }
 
 Table LabelsTable(const LabelTable& labels) {
-  Table table = {.key = "labels",
-                 .title = "Numbers of the labels",
-                 .columns = ColumnsOf("number: Number; label: Label; osdar23: Class in OSDaR23; "
-                                      "whu_railway3d: Class in WHU-Railway3D")};
+  Table table = TableOf(kCardWords, "labels");
   for (const Label& label : labels.labels()) {
     table.rows.push_back({std::uint64_t{label.id}, label.name, label.osdar23, label.whu_railway3d});
   }
@@ -147,9 +133,7 @@ Report MakeDatasetCard(const fs::path& dataset,
   if (!seen.sample.empty()) {
     report.sections.push_back(SensorSection(seen.sample));
     Section limits = LimitsSection(seen.sample, true);
-    limits.paragraphs = {
-        "How it errs is told for a detector that is tested on these frames: one that detects too "
-        "late on them detects earlier in reality."};
+    limits.paragraphs = {SentencesOf(kCardWords, "limits")};
     report.sections.push_back(std::move(limits));
   }
   return report;

@@ -1,11 +1,9 @@
 #include "analysis/extras/card/dataset_overview.h"
 
-#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/extras/recipe/dataset_record.h"
 #include "core/io/record/read_record.h"
 #include "core/io/recording/sequence_check.h"
-#include "core/io/write_file.h"
 
 namespace railcast {
 namespace {

@@ -10,6 +10,9 @@
 
 namespace railcast {
 
+/// The words of cards (report/words.h).
+extern const char* const kCardWords;
+
 /// What a finished data set says of itself in manifest.json and report.json (docs/dataset.md).
 struct DatasetOverview {
   std::filesystem::path source;

@@ -3,6 +3,7 @@
 
 #include "analysis/extras/card/dataset_card.h"
 #include "analysis/extras/card/dataset_overview.h"
+#include "analysis/report/words.h"
 #include "core/base/text.h"
 #include "core/extras/recipe/dataset_record.h"
 #include "core/extras/recipe/recipe.h"
@@ -70,11 +71,7 @@ void AddRecipeRows(const Json& value, const std::string& path, Table& table) {
 }
 
 Table RecipeTable(const Json& recipe) {
-  Table table = {.key = "recipe",
-                 .title = "What the recipe says",
-                 .note = "docs/dataset.md of railcast has the meanings of the keys.",
-                 .columns = ColumnsOf("key: Key; value: Value"),
-                 .is_open = true};
+  Table table = TableOf(kCardWords, "recipe");
   Json shown = recipe;
   shown.erase("$schema");
   shown.erase("version");
@@ -106,10 +103,7 @@ std::string CommandText(const RecipeFacts& recipe, const DatasetRecord& identity
 }
 
 Table OriginTable(const RecipeFacts& recipe, const DatasetRecord& identity) {
-  Table table = {.key = "made_of",
-                 .title = "What the bytes depend on",
-                 .columns = ColumnsOf("what: What; value: Value"),
-                 .is_open = true};
+  Table table = TableOf(kCardWords, "made_of");
   const auto add = [&](const char* what, std::string value) {
     table.rows.push_back({std::string(what), std::move(value)});
   };
@@ -128,9 +122,9 @@ Section MadeOfSection(const std::filesystem::path& dataset) {
       ReadRecordedJson(ReadDatasetFile(dataset, kRecipeFile), ShownPath(dataset / kRecipeFile));
   const auto identity = ReadRecord<DatasetRecord>(ReadDatasetFile(dataset, kDatasetFile),
                                                   ShownPath(dataset / kDatasetFile));
-  return {.key = "recipe",
-          .title = "Recipe",
-          .tables = {RecipeTable(recipe), OriginTable(FactsOfRecipe(recipe), identity)}};
+  Section section = SectionOf(kCardWords, "recipe");
+  section.tables = {RecipeTable(recipe), OriginTable(FactsOfRecipe(recipe), identity)};
+  return section;
 }
 
 }  // namespace railcast

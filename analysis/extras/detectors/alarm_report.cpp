@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "analysis/report/words.h"
 #include "core/base/text.h"
 
 namespace railcast {
@@ -16,14 +17,7 @@ std::string CauseText(const FalseAlarm& alarm) {
 
 // Nothing there first, by cause, then objects.
 Table AlarmTable(const std::vector<EvaluatedRun>& runs) {
-  Table table{.key = "false_alarms",
-              .title = "False alarms by what raised them",
-              .note =
-                  "The cause is the label of most of the points in the box that completes the "
-                  "rule, or its class where it has none. Intervals are exact for a Poisson process "
-                  "(Garwood 1936), with no alarm, too.",
-              .columns = ColumnsOf("at: At; cause: Cause; alarms: Alarms; per_km: Alarms per km"),
-              .is_open = true};
+  Table table = TableOf(kDetectorsWords, "false_alarms");
   std::map<std::pair<std::string, std::string>, std::uint64_t> counts;
   std::uint64_t num_all = 0;
   std::uint64_t num_at_nothing = 0;
@@ -46,13 +40,7 @@ Table AlarmTable(const std::vector<EvaluatedRun>& runs) {
 }
 
 Table BesideAlarmsTable(const std::vector<EvaluatedRun>& runs) {
-  Table table{.key = "no_alarm",
-              .title = "Objects that must raise no alarm",
-              .note = "They are approached and never reach into the gauge of the own track.",
-              .columns = ColumnsOf(
-                  "object: Object; type: Type; verdict: Verdict; runs: Runs; "
-                  "runs_with_alarm: With an alarm; alarms: Alarms; from_axis_m: From the axis"),
-              .is_open = true};
+  Table table = TableOf(kDetectorsWords, "no_alarm");
   for (const auto& [name, object] : ObjectsBesideIn(runs)) {
     table.rows.push_back({name, object.type, object.num_alarms == 0 ? "no alarm" : "false alarm",
                           object.num_runs, object.num_runs_with_alarm, object.num_alarms,
@@ -73,21 +61,13 @@ Chart AlarmChart(const std::vector<EvaluatedRun>& runs) {
       series.points.push_back({.x = alarm.s_m, .y = alarm.distance_m});
     }
   }
-  Chart chart{
-      .key = "false_alarms",
-      .title = "Where false alarms are seen",
-      .caption = "Chainage of the box that completes the rule, and how far ahead it is then.",
-      .x = {.title = "Chainage", .unit = "m"},
-      .y = {.title = "Distance", .unit = "m"}};
+  Chart chart = ChartOf(kDetectorsWords, "false_alarms");
   for (auto& [cause, series] : by_cause) chart.series.push_back(std::move(series));
   return chart;
 }
 
 Table AlarmList(const std::vector<EvaluatedRun>& runs) {
-  Table table{.key = "each_false_alarm",
-              .title = "Each false alarm",
-              .columns = ColumnsOf("run: Run; frame: Frame; chainage_m: Chainage; "
-                                   "distance_m: Distance; at: At; cause: Cause")};
+  Table table = TableOf(kDetectorsWords, "each_false_alarm");
   for (const EvaluatedRun& run : runs) {
     for (const FalseAlarm& alarm : run.alarms) {
       table.rows.push_back({ShownPath(run.run.source), std::uint64_t{alarm.frame}, alarm.s_m,
@@ -128,21 +108,16 @@ Estimate AlarmsPerKm(std::uint64_t num_alarms, double driven_m) {
 }
 
 std::string FalseAlarmText(const DetectionRule& rule) {
-  return "A false alarm is a run of frames of which each has, with those before it, boxes in the "
-         "gauge in " +
-         NumberText(rule.min_frames) + " of " + NumberText(rule.of_frames) +
-         " frames that are of no object in the way. A box is of an object if half of the smaller "
-         "of the two lies in the other, after " +
-         NumberText(kBoxSlack_m) +
-         " m have been added to each face of the true one. Boxes of an object that never reaches "
-         "into the gauge are false alarms at that object.";
+  return SentencesOf(kDetectorsWords, "rule",
+                     {{"min_frames", NumberText(rule.min_frames)},
+                      {"of_frames", NumberText(rule.of_frames)},
+                      {"slack_m", NumberText(kBoxSlack_m)}});
 }
 
 Section AlarmSection(const std::vector<EvaluatedRun>& runs, const DetectionRule& rule) {
-  Section section{.key = "false_alarms",
-                  .title = "False alarms",
-                  .paragraphs = {FalseAlarmText(rule)},
-                  .tables = {AlarmTable(runs)}};
+  Section section = SectionOf(kDetectorsWords, "false_alarms");
+  section.paragraphs = {FalseAlarmText(rule)};
+  section.tables = {AlarmTable(runs)};
   Table beside = BesideAlarmsTable(runs);
   if (!beside.rows.empty()) section.tables.push_back(std::move(beside));
   Table list = AlarmList(runs);

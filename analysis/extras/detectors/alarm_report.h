@@ -13,6 +13,9 @@
 
 namespace railcast {
 
+/// The words of evaluations (report/words.h).
+extern const char* const kDetectorsWords;
+
 /// An object that must raise no alarm, over all runs.
 struct ObjectBeside {
   std::string type;

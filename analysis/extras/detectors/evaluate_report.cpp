@@ -9,6 +9,7 @@
 #include "analysis/estimate/streams.h"
 #include "analysis/extras/detectors/alarm_report.h"
 #include "analysis/report/provenance.h"
+#include "analysis/report/words.h"
 #include "core/base/text.h"
 
 namespace railcast {
@@ -24,22 +25,16 @@ std::vector<DetectRun> DetectRunsOf(const std::vector<EvaluatedRun>& runs) {
 }
 
 Section InWaySection(const std::vector<Verdict>& verdicts) {
-  Section section{.key = "verdicts", .title = "In the way"};
-  if (std::ranges::none_of(verdicts, &Verdict::is_in_way)) {
-    section.paragraphs = {"Nothing is in the way in these runs."};
-    return section;
-  }
+  const bool is_any = std::ranges::any_of(verdicts, &Verdict::is_in_way);
+  Section section = SectionOf(kDetectorsWords, "verdicts", {{"is_any", is_any}});
+  if (!is_any) return section;
   section.tables = {VerdictTable(verdicts), MeansTable(verdicts)};
   return section;
 }
 
 Table EvaluatedRunTable(const std::vector<EvaluatedRun>& runs,
                         const std::vector<RecordingInfo>& infos) {
-  Table table{.key = "runs",
-              .title = "Each run",
-              .columns = ColumnsOf("run: Run; weather: Weather; driven_m: Driven; false_alarms: "
-                                   "False alarms; object: Object; outcome: Outcome; detected_at_m: "
-                                   "Detected at; needed_m: Needed; spare_m: To spare")};
+  Table table = TableOf(kDetectorsWords, "runs");
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const EvaluatedRun& run = runs[i];
     const std::vector<Cell> head = {ShownPath(run.run.source),
@@ -61,13 +56,9 @@ Table EvaluatedRunTable(const std::vector<EvaluatedRun>& runs,
 }
 
 Section BoxSection(const std::vector<EvaluatedRun>& runs, bool has_files) {
-  Section section{.key = "boxes", .title = "Boxes"};
+  Section section = SectionOf(kDetectorsWords, "boxes");
   if (has_files) section.paragraphs = BoxWarnings(runs);
-  Table table{
-      .key = "boxes",
-      .title = "What was reported of each run",
-      .columns = ColumnsOf("run: Run; read: Boxes; in_gauge: In the gauge; matched: Of an object"),
-      .is_open = true};
+  Table table = TableOf(kDetectorsWords, "boxes");
   for (const EvaluatedRun& run : runs) {
     table.rows.push_back(
         {ShownPath(run.run.source), run.boxes.read, run.boxes.in_gauge, run.boxes.matched});
@@ -77,7 +68,7 @@ Section BoxSection(const std::vector<EvaluatedRun>& runs, bool has_files) {
 }
 
 Section LatencySection(const std::vector<EvaluatedRun>& runs) {
-  Section section{.key = "latency", .title = "Latency"};
+  Section section = SectionOf(kDetectorsWords, "latency");
   Moments latency_ms;
   double most_ms = 0.0;
   for (const EvaluatedRun& run : runs) {
@@ -86,15 +77,8 @@ Section LatencySection(const std::vector<EvaluatedRun>& runs) {
       most_ms = std::max(most_ms, kMsPerSecond * latency_s);
     }
   }
-  section.paragraphs = {
-      "From a frame's stamp until its detections are known. A detection counts at the distance "
-      "that is left then: nearer by the latency times the speed of the vehicle, and that of an "
-      "object that comes towards it."};
-  Table table{.key = "latency",
-              .title = "Latency",
-              .columns = ColumnsOf("frames: Frames; mean_ms: Mean; most_ms: Most"),
-              .rows = {{latency_ms.num(), latency_ms.PlainMean(), most_ms}},
-              .is_open = true};
+  Table table = TableOf(kDetectorsWords, "latency");
+  table.rows = {{latency_ms.num(), latency_ms.PlainMean(), most_ms}};
   section.tables = {std::move(table)};
   return section;
 }
@@ -190,10 +174,10 @@ Report MakeEvaluateReport(const std::vector<EvaluatedRun>& runs,
   });
   if (has_enough) report.sections.push_back(MakeProbabilitySection(detect_runs, verdicts));
   report.sections.push_back(LatencySection(runs));
-  report.sections.push_back({.key = "runs",
-                             .title = "Run by run",
-                             .paragraphs = {BrakingText(spec.detect)},
-                             .tables = {EvaluatedRunTable(runs, infos)}});
+  Section section = SectionOf(kDetectorsWords, "runs");
+  section.paragraphs = {BrakingText(spec.detect)};
+  section.tables = {EvaluatedRunTable(runs, infos)};
+  report.sections.push_back(std::move(section));
   return report;
 }
 

@@ -12,6 +12,7 @@
 #include "analysis/limits/limit_sections.h"
 #include "analysis/report/program_output.h"
 #include "analysis/report/provenance.h"
+#include "analysis/report/words.h"
 #include "analysis/stats/certificate_section.h"
 #include "core/base/error.h"
 #include "core/base/input_file.h"
@@ -76,7 +77,7 @@ void PrintPage(const std::filesystem::path& page, const std::filesystem::path& p
 }
 
 Section CredibilitySection() {
-  Section section{.key = "credibility", .title = "Credibility"};
+  Section section = SectionOf(kDossierWords, "credibility");
   for (const Json& rules : Json::parse(kCredibility)) {
     Table table{.key = rules.at("key").get<std::string>(),
                 .title = rules.at("title").get<std::string>(),
@@ -106,10 +107,7 @@ std::string CertifyText(std::optional<double> share) {
 }  // namespace
 
 Section TraceabilitySection(const FinishedStudy& study) {
-  Table table{.key = "traceability",
-              .title = "What the figures depend on",
-              .columns = ColumnsOf("what: What; value: Value"),
-              .is_open = true};
+  Table table = TableOf(kDossierWords, "traceability");
   const auto add = [&](const std::string& what, const std::string& value) {
     table.rows.push_back({what, value});
   };
@@ -139,18 +137,19 @@ Section TraceabilitySection(const FinishedStudy& study) {
                               " --certify " + CertifyText(identity.certify) +
                               ", with the study and the recipe of the hashes above (inputs/ has "
                               "copies); approaches.jsonl then has the same bytes");
-  return {.key = "traceability", .title = "Traceability", .tables = {std::move(table)}};
+  Section section = SectionOf(kDossierWords, "traceability");
+  section.tables = {std::move(table)};
+  return section;
 }
 
 Section SignaturesSection() {
-  Table table{.key = "signatures",
-              .title = "Signatures",
-              .columns = ColumnsOf("role: Role; name: Name; date: Date; signature: Signature"),
-              .is_open = true};
+  Table table = TableOf(kDossierWords, "signatures");
   for (const char* const role : {"Made by", "Checked by", "Assessed by"}) {
     table.rows.push_back({std::string(role), std::string(), std::string(), std::string()});
   }
-  return {.key = "signatures", .title = "Signatures", .tables = {std::move(table)}};
+  Section section = SectionOf(kDossierWords, "signatures");
+  section.tables = {std::move(table)};
+  return section;
 }
 
 }  // namespace railcast

@@ -13,6 +13,9 @@
 
 namespace railcast {
 
+/// The words of dossiers (report/words.h).
+extern const char* const kDossierWords;
+
 // Sections of a dossier that say what a study covers and what it rests on.
 
 /// What was drawn, and what was the same in all approaches, by the parts of an operational design

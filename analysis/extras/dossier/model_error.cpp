@@ -10,6 +10,7 @@
 #include "analysis/estimate/streams.h"
 #include "analysis/extras/dossier/dossier_report.h"
 #include "analysis/extras/study/approach_scan.h"
+#include "analysis/report/words.h"
 #include "core/base/text.h"
 #include "core/io/run/dataset_files.h"
 
@@ -99,14 +100,7 @@ double PerFrame(std::uint64_t points, std::uint64_t num_frames) {
 }
 
 Table PointsTable(const std::map<std::string, ComparedBins>& by_target) {
-  Table table{.key = "model_points",
-              .title = "Points on objects, against the reference",
-              .note =
-                  "Same scenes, seeds and draws; means over frames. The ratio is the mean over the "
-                  "approaches, each of which counts once.",
-              .columns = ColumnsOf("target: Target; distance_m: Distance; frames: Frames; points: "
-                                   "Points; points_in_reference: Of the reference; ratio: Ratio"),
-              .is_open = true};
+  Table table = TableOf(kDossierWords, "model_points");
   for (const auto& [target, bins] : by_target) {
     for (std::size_t i = 0; i < bins.size(); ++i) {
       const ComparedBin& bin = bins.at(i);
@@ -147,18 +141,7 @@ Table DistancesTable(const ModelError& error) {
       shifts.most_m = std::fmax(shifts.most_m, shift_m);
     }
   }
-  Table table{
-      .key = "model_distances",
-      .title = "Distances from which on the points suffice, against the reference",
-      .note =
-          "The number of points that the study's rule or detector asks for, interpolated between "
-          "frames. Positive: the study detects from farther away than the reference. Left out are "
-          "approaches that begin with enough points, and those that never have them on one of the "
-          "rungs.",
-      .columns = ColumnsOf(
-          "target: Target; approaches: Approaches; at_start: Enough from the start; missed: Never "
-          "enough; shift_m: Shift, mean; least_shift_m: Least; most_shift_m: Greatest"),
-      .is_open = true};
+  Table table = TableOf(kDossierWords, "model_distances");
   for (const auto& [target, shifts] : by_target) {
     table.rows.push_back({target, shifts.num, shifts.num_at_start, shifts.num_missed,
                           shifts.shift_m.Mean(), shifts.least_m, shifts.most_m});
@@ -167,11 +150,7 @@ Table DistancesTable(const ModelError& error) {
 }
 
 Chart RatioChart(const std::map<std::string, ComparedBins>& by_target) {
-  Chart chart{.key = "model_ratio",
-              .title = "Points on objects, of those of the reference",
-              .caption = "1 is the reference; bars are intervals over the sampled approaches.",
-              .x = {.title = "Distance", .unit = "m"},
-              .y = {.title = "Ratio of points", .unit = ""}};
+  Chart chart = ChartOf(kDossierWords, "model_ratio");
   for (const auto& [target, bins] : by_target) {
     ChartSeries series{target, SeriesStyle::kLinePoints};
     for (std::size_t i = 0; i + 1 < bins.size(); ++i) {
@@ -218,13 +197,8 @@ ModelError MeasureModelError(const FinishedStudy& study,
 }
 
 Section ModelErrorSection(const ModelError& error) {
-  Section section{.key = "model", .title = "The error of the model"};
-  const std::string rung = error.rung.empty() ? "different rungs" : "rung " + error.rung;
-  section.paragraphs = {
-      "The study used " + rung + ". " + NumberText(error.approaches.size()) +
-      " sampled approaches were made again with it and with rung reference, which sends hundreds "
-      "of rays into each beam. This is the numerical error on these scenes; what no rung models "
-      "stands in section What is not modelled."};
+  Section section = SectionOf(kDossierWords, "model",
+                              {{"rung", error.rung}, {"num", NumberText(error.approaches.size())}});
   const auto by_target = ComparedBinsOf(error);
   section.charts = {RatioChart(by_target)};
   section.tables = {DistancesTable(error), PointsTable(by_target)};

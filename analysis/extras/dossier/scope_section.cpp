@@ -8,7 +8,9 @@
 
 #include "analysis/extras/dossier/dossier_report.h"
 #include "analysis/extras/study/study_factors.h"
+#include "analysis/report/words.h"
 #include "core/base/text.h"
+#include "core/extras/recipe/json_place.h"
 
 namespace railcast {
 
@@ -77,7 +79,7 @@ bool ChangesAny(const std::string& name, const std::vector<std::string>& keys, c
   const std::set<std::string> changed = DrawnKeys(name, recipe);
   return std::ranges::any_of(keys, [&](const std::string& key) {
     return std::ranges::any_of(
-        changed, [&](const std::string& pointer) { return IsAtOrBelow(pointer, key); });
+        changed, [&](const std::string& pointer) { return LiesWithin(pointer, key); });
   });
 }
 
@@ -103,15 +105,7 @@ std::string ValuesIn(const Json& scenario, const std::vector<std::string>& keys)
 Section ScopeSection(const FinishedStudy& study, const std::vector<ScenarioSpec>& sample) {
   const DrawnByName drawn = DrawnIn(study.result.approaches);
   const Json scenario = Json::parse(ResolvedScenarioJson(sample.front()));
-  Table table{
-      .key = "scope",
-      .title = "What the approaches cover",
-      .note =
-          "Groups as in ISO 34503. Values are those that occurred, not those that the recipe "
-          "permits; in brackets how many approaches had them. What is not varied has the value of "
-          "the first sampled scenario.",
-      .columns = ColumnsOf("group: Group; axis: Condition; is_varied: Varied; values: Values"),
-      .is_open = true};
+  Table table = TableOf(kDossierWords, "scope");
   for (const Json& axis : Json::parse(kOddAxes)) {
     const auto keys = axis.at("keys").get<std::vector<std::string>>();
     bool is_varied = false;
@@ -125,7 +119,9 @@ Section ScopeSection(const FinishedStudy& study, const std::vector<ScenarioSpec>
     table.rows.push_back({axis.at("group").get<std::string>(), axis.at("axis").get<std::string>(),
                           std::string(is_varied ? "yes" : "no"), values});
   }
-  return {.key = "scope", .title = "Scope", .tables = {std::move(table)}};
+  Section section = SectionOf(kDossierWords, "scope");
+  section.tables = {std::move(table)};
+  return section;
 }
 
 }  // namespace railcast

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "analysis/report/cell_text.h"
+#include "analysis/report/words.h"
 #include "analysis/stats/bins.h"
 #include "core/base/text.h"
 
@@ -64,15 +65,7 @@ std::string ReplayVerdictText(const FittedParameter& parameter) {
 }
 
 Table ParameterTable(const FitReportInput& input, const FitResult& result) {
-  const char* const of_replay =
-      "; scenario: Scenario's own; figure: Replayed, simulated / recorded; "
-      "before: With the scenario's own; after: With the fitted; verdict: Which is";
-  Table table{
-      "parameters", "Parameters",
-      "With 95 % intervals. What the recording does not identify has no value but a reason. With a "
-      "scenario, each value is put into it and the sensor replayed before the recording's planes.",
-      ColumnsOf(Joined({"parameter: Parameter; key: Key in a scenario; unit: Unit; value: Value",
-                        input.scenario ? of_replay : "", "; remark: Remark"}))};
+  Table table = TableOf(kFitWords, "parameters", {{"has_scenario", input.scenario.has_value()}});
   for (const FittedParameter& parameter : result.parameters) {
     std::vector<Cell> row = {parameter.title, parameter.place, parameter.unit, parameter.estimate};
     if (input.scenario) {
@@ -90,12 +83,7 @@ Table ParameterTable(const FitReportInput& input, const FitResult& result) {
 constexpr double kMillimetres = 1e3;
 
 Chart NoiseChart(const FitResult& result) {
-  Chart chart{"noise",
-              "Noise against range",
-              "The model fits where the line runs through the points, each a robust scale of as "
-              "many residuals.",
-              {"Range", "m"},
-              {"Standard deviation", "mm"}};
+  Chart chart = ChartOf(kFitWords, "noise");
   ChartSeries measured{"measured", SeriesStyle::kPoints};
   ChartSeries fitted{"fitted", SeriesStyle::kLine};
   for (const NoiseBin& bin : result.noise_by_range) {
@@ -107,12 +95,7 @@ Chart NoiseChart(const FitResult& result) {
 }
 
 Chart LossChart(const RecordedTrials& trials, const FitResult& result) {
-  Chart chart{"losses",
-              "Losses within surfaces against range",
-              "The model fits where the line runs through the points: the share of the firings "
-              "between two points of one surface that have none.",
-              {"Range", "m"},
-              {"Share lost", "%"}};
+  Chart chart = ChartOf(kFitWords, "losses");
   std::vector<LossBin> sums(RangeBins().size());
   for (const auto& [metre, bin] : trials.losses) {
     const auto place = RangeBins().Find(bin.range_m());
@@ -133,11 +116,7 @@ Chart LossChart(const RecordedTrials& trials, const FitResult& result) {
 }
 
 Chart BiasChart(const FitResult& result) {
-  Chart chart{"channel_bias",
-              "Range errors of the channels",
-              "A channel away from 0 measures too far or too near: medians of the residuals.",
-              {"Channel", ""},
-              {"Bias", "mm"}};
+  Chart chart = ChartOf(kFitWords, "channel_bias");
   ChartSeries series{"bias", SeriesStyle::kPoints};
   for (const ChannelBias& bias : result.channels) {
     series.points.push_back(PointAt(bias.channel, Scaled(bias.bias_m, kMillimetres)));
@@ -207,17 +186,10 @@ Report MakeFitReport(const FitReportInput& input,
   report.facts.emplace_back("Frames", NumberText(trials.num_frames));
   report.facts.emplace_back("Flat pieces of surface", NumberText(trials.num_pieces));
   report.headlines = Headlines(result);
-  Section section{"fit",
-                  Joined({"Rung ", rung}),
-                  {std::string(result.is_from_turn_to_turn
-                                   ? "Noise is what changes from turn to turn on small flat pieces "
-                                     "of surface, along the beam. "
-                                   : "Noise is that of the points about small flat pieces of "
-                                     "surface, along the beam; roughness counts as noise. ") +
-                   "Losses are firings without a point between two of their ring that lie on one "
-                   "surface. Nothing but the points is used, no truth."},
-                  MakeCharts(trials, result),
-                  {ParameterTable(input, result)}};
+  Section section = SectionOf(
+      kFitWords, "fit", {{"rung", rung}, {"is_from_turn_to_turn", result.is_from_turn_to_turn}});
+  section.charts = MakeCharts(trials, result);
+  section.tables = {ParameterTable(input, result)};
   report.sections.push_back(std::move(section));
   return report;
 }

@@ -10,6 +10,9 @@
 
 namespace railcast {
 
+/// The words of fits (report/words.h).
+extern const char* const kFitWords;
+
 /// Value of a fitted parameter in a scenario; NaN where the scenario has none.
 [[nodiscard]] double ScenarioValue(const ScenarioSpec& scenario, const std::string& place);
 

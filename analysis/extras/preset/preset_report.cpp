@@ -1,13 +1,15 @@
 #include "analysis/extras/preset/preset_comparison.h"
 
-#include <array>
 #include <utility>
 
 #include "analysis/report/chart_columns.h"
+#include "analysis/report/words.h"
 #include "analysis/stats/bins.h"
 #include "core/base/text.h"
 
 namespace railcast {
+
+extern const char* const kPresetWords;
 namespace {
 
 constexpr double kPresetMm = 1e3;
@@ -28,18 +30,7 @@ Cell TemporalSigmaCell(const TemporalNoise& noise, std::size_t bin) {
 }
 
 Table RangeTable(const PresetComparison& comparison) {
-  Table table = {
-      "preset_by_range",
-      "By range",
-      "On the planes, a turn's points each; sigmas are robust. Of few turns: what changes more "
-      "slowly is in no interval.",
-      ColumnsOf("range_m: Range; recorded: Points recorded; simulated: Points simulated; "
-                "recorded_holes_percent: Holes recorded; simulated_holes_percent: Holes simulated; "
-                "recorded_planes_mm: About planes, recorded; simulated_planes_mm: About planes, "
-                "simulated; recorded_turns_mm: From turn to turn, recorded; simulated_turns_mm: "
-                "From turn to turn, simulated"),
-      {},
-      true};
+  Table table = TableOf(kPresetWords, "preset_by_range");
   const PlaneFigures& recorded = comparison.recorded;
   const PlaneFigures& simulated = comparison.simulated;
   for (std::size_t i = 0; i < recorded.firings.size(); ++i) {
@@ -54,13 +45,7 @@ Table RangeTable(const PresetComparison& comparison) {
 }
 
 Table CellTable(const PresetComparison& comparison) {
-  Table table = {
-      "preset_intensity", "Intensity by piece, range and incidence",
-      "Means of the middle three fifths of at least 15 points. A piece is made of neighbouring "
-      "cells whose recorded intensities differ by less than a factor of 1.3; the simulated ones "
-      "are multiplied by one factor for each piece.",
-      ColumnsOf("turn: Turn; piece: Piece; plane: Plane; strip: Strip; kind: Kind; range_m: Range; "
-                "incidence_deg: Incidence; recorded: Recorded; simulated: Simulated")};
+  Table table = TableOf(kPresetWords, "preset_intensity");
   for (const IntensityCell& cell : LikePieces(comparison.intensity)) {
     table.rows.push_back({std::uint64_t{cell.turn}, std::uint64_t{cell.piece},
                           std::uint64_t{cell.place.plane}, std::uint64_t{cell.place.strip},
@@ -71,27 +56,10 @@ Table CellTable(const PresetComparison& comparison) {
 }
 
 Section MakePlanesSection(const PresetComparison& comparison) {
-  Section section{
-      "preset",
-      "The preset before the recording's planes",
-      {"The planes are found in the recording by themselves; the scenario's sensor looks at them "
-       "from the same place with its own pattern, rung and weather. A beam meets a plane where the "
-       "recorded firings of its direction did. Level planes below the sensor are asphalt, others "
-       "concrete, with the reflectivities that give the recorded intensities; for the comparison "
-       "of intensities, one reflectivity everywhere."}};
+  Section section = SectionOf(kPresetWords, "preset");
   Table table = RangeTable(comparison);
-  for (const auto& [key, title, what, unit] :
-       {std::array{"holes_percent", "Holes in planes", "Holes", "%"},
-        std::array{"turns_mm", "Noise from turn to turn", "Standard deviation", "mm"}}) {
-    const std::string name = key;
-    section.charts.push_back({"preset_" + name,
-                              title,
-                              "The preset is right where its line lies on the recording's.",
-                              {"Range", "m"},
-                              {what, unit},
-                              {SeriesOf(table, {"range_m", "recorded_" + name}, "recorded"),
-                               SeriesOf(table, {"range_m", "simulated_" + name}, "simulated")}});
-  }
+  section.charts = {ChartOfTable(kPresetWords, "preset_holes_percent", table),
+                    ChartOfTable(kPresetWords, "preset_turns_mm", table)};
   section.tables.push_back(std::move(table));
   section.tables.push_back(CellTable(comparison));
   return section;

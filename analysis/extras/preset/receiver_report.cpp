@@ -3,22 +3,17 @@
 
 #include "analysis/extras/preset/receiver_figures.h"
 #include "analysis/report/chart_columns.h"
+#include "analysis/report/words.h"
 #include "core/base/text.h"
 
 namespace railcast {
 
+extern const char* const kPresetWords;
+
 Section MakeReceiverSection(const ReceiverFigures& figures) {
   constexpr double kPercent = 100.0;
   constexpr double kMm = 1e3;
-  Table table = {
-      "receiver",
-      "Surfaces and receiver",
-      "Intensities by their logarithm, on smooth surfaces, from 0.05 to 1; intervals by sectors of "
-      "10 deg. The robust figure is that of the usual surface; markings and edges add to the "
-      "other.",
-      ColumnsOf("figure: Figure; unit: Unit; value: Robust; rms: By squares"),
-      {},
-      true};
+  Table table = TableOf(kPresetWords, "receiver");
   const auto add = [&](std::string name, const char* unit, double scale, const TwoDeviations& of) {
     table.rows.push_back({std::move(name), unit, Scaled(of.robust, scale), Scaled(of.rms, scale)});
   };
@@ -42,18 +37,8 @@ Section MakeReceiverSection(const ReceiverFigures& figures) {
   add_one("firings lost at an edge: b", "mm", kMm, figures.jumps.common_m);
   add_one("firings lost at an edge: b more, near side last", "mm", kMm, figures.jumps.aside_m);
   add_one("interior holes", "%", kPercent, figures.holes);
-  Section section{
-      "receiver",
-      "Surfaces and receiver as the recording shows them",
-      {"Noise is what changes from turn to turn, in intensities from 0.12 to 0.25. A channel's "
-       "gain "
-       "sets it apart from its neighbours on the same surfaces. Texture is the semideviation of "
-       "log intensity along a ring, less the noise. At an edge, base + b (1 / near - 1 / far) / "
-       "step of azimuth firings are lost; b is more, or less, where the ring meets the near side "
-       "last, in the order of columns, by how far the receiver stands beside its emitter."}};
-  if (figures.range_noise_m.rms.num == 0) {
-    section.paragraphs.emplace_back("Turns do not tell noise here: texture has it included.");
-  }
+  Section section =
+      SectionOf(kPresetWords, "receiver", {{"has_no_turns", figures.range_noise_m.rms.num == 0}});
   section.tables.push_back(std::move(table));
   return section;
 }

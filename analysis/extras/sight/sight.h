@@ -12,6 +12,9 @@
 
 namespace railcast {
 
+/// The words of reports on sight (report/words.h).
+extern const char* const kSightWords;
+
 /// What is looked for from where.
 struct SightSpec {
   /// Of the targets, above top of rail: what lies on the track, a child or an animal, a person.

@@ -1,7 +1,6 @@
 #include "analysis/extras/study/kept_files.h"
 
 #include <algorithm>
-#include <map>
 #include <set>
 
 #include "analysis/extras/study/study_directory.h"

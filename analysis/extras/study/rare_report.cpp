@@ -4,9 +4,12 @@
 #include <utility>
 
 #include "analysis/extras/study/rare_study.h"
+#include "analysis/report/words.h"
 #include "core/base/text.h"
 
 namespace railcast {
+
+extern const char* const kStudyWords;
 namespace {
 
 /// A trial that failed, on the dearest rung that it was made on, after the search.
@@ -120,15 +123,7 @@ std::vector<MovedFactor> MovedFactors(const RareStudy& study) {
 
 Section ConditionsOfFailures(const RareStudy& study) {
   constexpr double kTelling_nats = 0.1;
-  Table table{.key = "rare_conditions",
-              .title = "What is drawn in failures",
-              .note =
-                  "The value that is more frequent than usual, or eight tenths of the numbers, "
-                  "in the failures and as the recipe draws it, with the relative entropy of "
-                  "both.",
-              .columns = ColumnsOf("factor: Factor; in_failures: In failures; usual: As drawn; "
-                                   "moved [nat]: Differs by"),
-              .is_open = true};
+  Table table = TableOf(kStudyWords, "rare_conditions");
   std::string words;
   for (const MovedFactor& moved : MovedFactors(study)) {
     table.rows.push_back({moved.name, moved.in_failures, moved.usual, moved.moved_nats});
@@ -136,7 +131,7 @@ Section ConditionsOfFailures(const RareStudy& study) {
     words += (words.empty() ? "Failures have " : "; ") + moved.name + " " + moved.in_failures +
              " (drawn: " + moved.usual + ")";
   }
-  Section section{.key = "rare_conditions", .title = "Which conditions matter"};
+  Section section = SectionOf(kStudyWords, "rare_conditions");
   section.paragraphs = {words.empty() ? "No condition stands out." : words + "."};
   section.tables = {std::move(table)};
   return section;
@@ -144,16 +139,7 @@ Section ConditionsOfFailures(const RareStudy& study) {
 
 Table LevelsTable(const RareStudy& study) {
   const RareRun& run = study.run;
-  Table table{.key = "rare_levels",
-              .title = "What the figure rests on",
-              .note =
-                  "Means and variances are of one approach, by its weight. Processor times are "
-                  "of the approaches that this run has made, without scenery that other threads "
-                  "build ahead.",
-              .columns = ColumnsOf("part: Part; rungs: Rungs; approaches: Approaches; mean [1]: "
-                                   "Mean; variance [1]: Variance; approach_s: Time of each; "
-                                   "processor_s: Time"),
-              .is_open = true};
+  Table table = TableOf(kStudyWords, "rare_levels");
   const auto add = [&](const char* part, const RareLevel& level, bool is_pair) {
     const double each_s = study.approach_s[is_pair ? 1 : 0];
     table.rows.push_back({part, is_pair ? study.dear + " and " + study.cheap : study.cheap,
@@ -175,39 +161,23 @@ Table CostTable(const RareStudy& study) {
   const double spent_s = num_cheap * cheap_s + (num_pairs > 0.0 ? num_pairs * pair_s : 0.0);
   const double plain = PlainTrialsFor(figure.probability);
   const double plain_s = plain * (num_pairs > 0.0 ? pair_s - cheap_s : cheap_s);
-  return {.key = "rare_cost",
-          .title = "Cost beside a plain study",
-          .note = "Of approaches as the recipe draws them, so many would have an interval as wide.",
-          .columns = ColumnsOf("approaches: Approaches; processor_s: Processor time; plain: Of a "
-                               "plain study; plain_s: Its processor time; times_cheaper [1]: Times "
-                               "cheaper"),
-          .rows = {{std::uint64_t{study.run.trials.size()}, spent_s, std::round(plain), plain_s,
-                    plain_s / spent_s}},
-          .is_open = true};
+  Table table = TableOf(kStudyWords, "rare_cost");
+  table.rows = {{std::uint64_t{study.run.trials.size()}, spent_s, std::round(plain), plain_s,
+                 plain_s / spent_s}};
+  return table;
 }
 
 Section FigureSection(const RareStudy& study) {
   const RareFigure& figure = study.run.figure;
-  Section section{.key = "rare", .title = "How often it is not detected in time"};
-  section.paragraphs = {
-      "The probability that something in the way is not detected in time in an approach that the "
-      "recipe draws, by importance sampling over what it draws, on the rung " +
-      study.dear + "."};
-  section.tables = {
-      {.key = "rare",
-       .title = "Probability",
-       .note = "The two searches are independent of each other, and on the cheap rung alone.",
-       .columns = ColumnsOf("probability [1]: Probability; at_most [1]: At most; effective: "
-                            "Effective approaches; largest_percent: Largest weight; search_1 [1]: "
-                            "One search; search_2 [1]: The other"),
-       .rows = {{figure.probability, figure.at_most, figure.effective, 100.0 * figure.largest_share,
-                 figure.by_proposal[0], figure.by_proposal[1]}},
-       .is_open = true},
-      LevelsTable(study)};
+  Section section =
+      SectionOf(kStudyWords, "rare", {{"rung", study.dear}, {"refusal", figure.refusal}});
+  Table table = TableOf(kStudyWords, "rare");
+  table.rows = {{figure.probability, figure.at_most, figure.effective, 100.0 * figure.largest_share,
+                 figure.by_proposal[0], figure.by_proposal[1]}};
+  section.tables = {std::move(table), LevelsTable(study)};
   if (figure.is_known()) {
     section.tables.push_back(CostTable(study));
   } else {
-    section.paragraphs.push_back("There is no figure: " + figure.refusal + ".");
     // Paragraphs are not in JSON.
     section.tables[0].columns.push_back({.key = "refusal", .title = "No figure, since"});
     section.tables[0].rows[0].emplace_back(figure.refusal);

@@ -3,7 +3,6 @@
 #include <tbb/info.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <limits>
 #include <list>

@@ -7,6 +7,7 @@
 #include "analysis/estimate/streams.h"
 #include "analysis/extras/detectors/alarm_report.h"
 #include "analysis/extras/study/study_report.h"
+#include "analysis/report/words.h"
 
 namespace railcast {
 namespace {
@@ -95,18 +96,7 @@ std::set<std::string> TellingConditions(const TargetGroups& groups) {
 }
 
 Table TargetTable(const std::vector<ApproachRecord>& approaches) {
-  Table table{
-      .key = "targets_by_condition",
-      .title = "Each object in each condition",
-      .note =
-          "Detected at and in time are of objects in the way; all others must raise no alarm. "
-          "Alarms at objects that are not in the way are counted by themselves, all others per km "
-          "driven in these approaches, with exact intervals.",
-      .columns = ColumnsOf(
-          "target: Target; condition: Condition; approaches: Approaches; detected: Detected; "
-          "in_time: In time; least_detected_at_m: Detected at, at least; mean_detected_at_m: On "
-          "average; alarms_at_objects: Alarms at objects; per_km: Other false alarms per km"),
-      .is_open = true};
+  Table table = TableOf(kStudyWords, "targets_by_condition");
   const TargetGroups groups = GroupTargets(approaches);
   const std::set<std::string> telling = TellingConditions(groups);
   for (const auto& [target, by_condition] : groups) {
@@ -127,13 +117,7 @@ Table TargetTable(const std::vector<ApproachRecord>& approaches) {
 }
 
 Table ConditionAlarmTable(const std::vector<ApproachRecord>& approaches) {
-  Table table{
-      .key = "false_alarms",
-      .title = "False alarms in each condition",
-      .columns = ColumnsOf(
-          "condition: Condition; approaches: Approaches; driven_km: Driven; alarms_at_objects: "
-          "Alarms at objects; alarms: Other alarms; per_km: Other alarms per km"),
-      .is_open = true};
+  Table table = TableOf(kStudyWords, "false_alarms");
   std::map<std::string, ApproachGroup> groups;
   for (const ApproachRecord& approach : approaches) {
     for (const std::string& condition : ConditionsOf(approach)) {
@@ -150,10 +134,7 @@ Table ConditionAlarmTable(const std::vector<ApproachRecord>& approaches) {
 }
 
 Table StudyAlarmList(const std::vector<ApproachRecord>& approaches) {
-  Table table{.key = "each_false_alarm",
-              .title = "Each false alarm",
-              .columns = ColumnsOf("scenario: Scenario; frame: Frame; chainage_m: Chainage; "
-                                   "distance_m: Distance; at: At; cause: Cause")};
+  Table table = TableOf(kStudyWords, "each_false_alarm");
   for (const ApproachRecord& approach : approaches) {
     for (const FalseAlarm& alarm : approach.alarms->alarms) {
       table.rows.push_back({std::uint64_t{approach.scenario}, std::uint64_t{alarm.frame}, alarm.s_m,
@@ -167,10 +148,9 @@ Table StudyAlarmList(const std::vector<ApproachRecord>& approaches) {
 }  // namespace
 
 Section StudyAlarmsSection(const StudySpec& study, const std::vector<ApproachRecord>& approaches) {
-  Section section{.key = "false_alarms",
-                  .title = "False alarms",
-                  .paragraphs = {FalseAlarmText(study.detect.rule)},
-                  .tables = {TargetTable(approaches), ConditionAlarmTable(approaches)}};
+  Section section = SectionOf(kStudyWords, "false_alarms");
+  section.paragraphs = {FalseAlarmText(study.detect.rule)};
+  section.tables = {TargetTable(approaches), ConditionAlarmTable(approaches)};
   Table list = StudyAlarmList(approaches);
   if (!list.rows.empty()) section.tables.push_back(std::move(list));
   return section;

@@ -5,6 +5,7 @@
 #include "analysis/detectability/detection_probability.h"
 #include "analysis/estimate/estimate.h"
 #include "analysis/extras/study/study_report.h"
+#include "analysis/report/words.h"
 #include "core/base/text.h"
 
 namespace railcast {
@@ -13,14 +14,7 @@ namespace {
 constexpr double kUnknown_m = std::numeric_limits<double>::quiet_NaN();
 
 Table LevelTable(const std::vector<Observation>& observations, const std::vector<Factor>& factors) {
-  Table table{
-      .key = "conditions",
-      .title = "By what is drawn",
-      .note = "Each factor by itself, over all values of the others. Distances need 60 approaches.",
-      .columns =
-          ColumnsOf("factor: Factor; value: Value; approaches: Approaches; in_time_percent: In "
-                    "time; d90_95_m: 0.9 with 95 % confidence at; curve_d90_m: Curve: 0.9 at"),
-      .is_open = true};
+  Table table = TableOf(kStudyWords, "conditions");
   for (const Factor& factor : factors) {
     std::vector<ObservedGroup> cells(factor.levels.size());
     for (std::size_t i = 0; i < observations.size(); ++i) {
@@ -87,16 +81,7 @@ Table FailingTable(const std::vector<Observation>& observations,
   std::ranges::stable_sort(pairs, {},
                            [](const Pair& pair) { return pair.cell.in_time_percent().high; });
   pairs.resize(std::min(pairs.size(), kMostPairs));
-  Table table{
-      .key = "failing",
-      .title = "In which it fails",
-      .note =
-          "Two values together with at least ten approaches, of which a smaller share is "
-          "in time than of all, beyond the 95 % interval; the worst ten that are not in the "
-          "table of verdicts. Some 2.5 % of all pairs are so by chance.",
-      .columns =
-          ColumnsOf("one: Value; other: With; approaches: Approaches; in_time_percent: In time"),
-      .is_open = true};
+  Table table = TableOf(kStudyWords, "failing");
   for (const Pair& pair : pairs) {
     table.rows.push_back({pair.one, pair.other, pair.cell.num, pair.cell.in_time_percent()});
   }
@@ -108,11 +93,8 @@ Table FailingTable(const std::vector<Observation>& observations,
 Section ConditionsSection(const std::vector<Observation>& observations,
                           const std::vector<Factor>& factors,
                           const std::vector<const Factor*>& in_table) {
-  Section section{.key = "conditions", .title = "Conditions"};
-  if (factors.empty()) {
-    section.paragraphs = {"Nothing that the recipe draws differs between the approaches."};
-    return section;
-  }
+  Section section = SectionOf(kStudyWords, "conditions", {{"none", factors.empty()}});
+  if (factors.empty()) return section;
   section.tables = {LevelTable(observations, factors)};
   Table failing = FailingTable(observations, factors, in_table);
   if (!failing.rows.empty()) section.tables.push_back(std::move(failing));
@@ -120,28 +102,14 @@ Section ConditionsSection(const std::vector<Observation>& observations,
 }
 
 Section FactorsSection(const std::vector<FactorWeight>& weights, std::size_t num_observations) {
-  Section section{.key = "factors", .title = "Which factor matters"};
+  Section section = SectionOf(kStudyWords, "factors");
   if (weights.empty()) {
     section.paragraphs = {"Too few approaches to weigh the factors: each value asks for ten (got " +
                           NumberText(num_observations) + " approaches)."};
     return section;
   }
-  Table table{.key = "factors",
-              .title = "Weights of the factors",
-              .note =
-                  "Likelihood ratios in one logistic regression of detected or not, at the "
-                  "distance of each inspection, on all factors: twice the fall of the "
-                  "log-likelihood without the factor, and how probable as much is by chance.",
-              .columns = ColumnsOf("factor: Factor; degrees: Degrees of freedom; ratio: Likelihood "
-                                   "ratio; p_value: By chance; share_percent: Share"),
-              .is_open = true};
-  Chart chart{
-      .key = "factors",
-      .title = "Which factor matters",
-      .caption =
-          "Shares of the sum of the factors' likelihood ratios; the distance itself is left out.",
-      .x = {.title = "Factor"},
-      .y = {.title = "Share", .unit = "%"}};
+  Table table = TableOf(kStudyWords, "factors");
+  Chart chart = ChartOf(kStudyWords, "factors");
   ChartSeries bars{"share", SeriesStyle::kBars};
   for (const FactorWeight& weight : weights) {
     table.rows.push_back({weight.name, std::uint64_t{weight.degrees}, weight.ratio, weight.p_value,

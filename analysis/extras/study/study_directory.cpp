@@ -1,6 +1,5 @@
 #include "analysis/extras/study/study_directory.h"
 
-#include <functional>
 #include <map>
 #include <regex>
 #include <string>
@@ -18,7 +17,6 @@
 #include "core/io/run/sequence_files.h"
 #include "core/io/unfinished_file.h"
 #include "core/io/verify/findings.h"
-#include "core/io/write_file.h"
 #include "core/scenario/archive.h"
 
 namespace railcast {

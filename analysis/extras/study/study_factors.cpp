@@ -290,8 +290,4 @@ std::set<std::string> DrawnKeys(const std::string& name, const Json& recipe) {
   return keys;
 }
 
-bool IsAtOrBelow(const std::string& pointer, const std::string& key) {
-  return pointer.starts_with(key) && (pointer.size() == key.size() || pointer[key.size()] == '/');
-}
-
 }  // namespace railcast

@@ -88,7 +88,4 @@ struct FactorWeight {
 /// @param recipe The recipe's file.
 [[nodiscard]] std::set<std::string> DrawnKeys(const std::string& name, const Json& recipe);
 
-/// Whether a pointer is a key or lies below it.
-[[nodiscard]] bool IsAtOrBelow(const std::string& pointer, const std::string& key);
-
 }  // namespace railcast

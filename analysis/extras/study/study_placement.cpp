@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstdint>
 #include <map>
 #include <utility>
 
@@ -7,6 +6,8 @@
 #include "analysis/estimate/streams.h"
 #include "analysis/extras/study/study_factors.h"
 #include "analysis/extras/study/study_report.h"
+#include "analysis/report/words.h"
+#include "core/extras/recipe/json_place.h"
 
 namespace railcast {
 namespace {
@@ -21,7 +22,7 @@ struct PlacedView {
 bool ChangesSensor(const Factor& factor, const Json& recipe) {
   return factor.name == "sensor" ||
          std::ranges::any_of(DrawnKeys(factor.name, recipe), [](const std::string& key) {
-           return IsAtOrBelow(key, "/lidar") || IsAtOrBelow(key, "/lidars");
+           return LiesWithin(key, "/lidar") || LiesWithin(key, "/lidars");
          });
 }
 
@@ -68,13 +69,7 @@ bool ArePlacementsAndTargets(const std::vector<const Factor*>& in_table,
 
 Chart PlacementChart(const std::vector<PlacedView>& views) {
   constexpr std::size_t kMostPlacements = 12;
-  Chart chart{.key = "placement",
-              .title = "Which placement detects first",
-              .caption =
-                  "Mean distance of detection with its interval; placements in the order of the "
-                  "first target.",
-              .x = {.title = "Placement"},
-              .y = {.title = "Distance of detection", .unit = "m"}};
+  Chart chart = ChartOf(kStudyWords, "placement");
   std::map<std::string, std::size_t> place_of;
   for (const PlacedView& view : views) {
     if (chart.series.empty() || chart.series.back().title != view.target) {
@@ -101,19 +96,10 @@ Section PlacementSection(const std::vector<Observation>& observations,
   for (const Factor& factor : factors) {
     if (ChangesSensor(factor, recipe)) of_sensor.push_back(&factor);
   }
-  Section section{.key = "placement", .title = "Placement"};
+  Section section = SectionOf(kStudyWords, "placement");
   if (of_sensor.empty()) return section;
   const std::vector<PlacedView> views = ViewsOf(observations, of_sensor);
-  Table table{.key = "placement",
-              .title = "Sensors and mounts",
-              .note =
-                  "Every combination of what the recipe draws for the sensor, over all values of "
-                  "everything else. Means are over the approaches that detect; distances with "
-                  "confidence need 60.",
-              .columns = ColumnsOf("target: Target; placement: Placement; approaches: Approaches; "
-                                   "detected: Detected; in_time_percent: In time; distance_m: "
-                                   "Detected at, mean; d90_95_m: 0.9 with 95 % confidence at"),
-              .is_open = true};
+  Table table = TableOf(kStudyWords, "placement");
   for (const PlacedView& view : views) {
     const ObservedGroup& seen = view.seen;
     table.rows.push_back({view.target, view.placement, seen.num, seen.num_detected,

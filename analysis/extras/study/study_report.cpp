@@ -9,6 +9,7 @@
 #include "analysis/extras/detectors/alarm_report.h"
 #include "analysis/extras/detectors/evaluate_report.h"
 #include "analysis/extras/study/kept_files.h"
+#include "analysis/report/words.h"
 #include "analysis/stats/certificate_section.h"
 #include "core/base/text.h"
 
@@ -45,16 +46,7 @@ std::string SeenText(const StudySpec& study) {
 
 // Each target that a driver's distance is published for.
 Table DriverTable(const std::vector<TargetResult>& targets, const Json& yardsticks) {
-  Table table{
-      .key = "beside_driver",
-      .title = "Beside the driver",
-      .note =
-          "The driver's distance is about where objects were noticed, which no confidence is given "
-          "for; d90/95 is what 90 % of the approaches reach. Farther than the driver if it is "
-          "above 100 %.",
-      .columns = ColumnsOf("target: Target; d90_95_m: 0.9 with 95 % confidence at; driver_m: "
-                           "Driver; of_driver_percent: Of the driver's distance; source: Source"),
-      .is_open = true};
+  Table table = TableOf(kStudyWords, "beside_driver");
   for (const TargetResult& target : targets) {
     for (const Json& row : yardsticks) {
       const auto what = row.at("what").get<std::string>();
@@ -92,18 +84,13 @@ std::vector<std::pair<std::string, std::string>> FactsOfStudy(const StudySpec& s
 
 Section YardsticksSection(const std::vector<TargetResult>& targets) {
   const Json yardsticks = Json::parse(kYardsticks);
-  Table table{.key = "yardsticks",
-              .title = "Published distances of detection",
-              .note = "Other objects, places and weather than here: for the order of magnitude.",
-              .columns = ColumnsOf(
-                  "what: What; who: By; distance_m: Distance; how: How measured; source: Source"),
-              .is_open = true};
+  Table table = TableOf(kStudyWords, "yardsticks");
   for (const Json& row : yardsticks) {
     table.rows.push_back({row.at("what").get<std::string>(), row.at("who").get<std::string>(),
                           row.at("distance_m").get<double>(), row.at("how").get<std::string>(),
                           row.at("source").get<std::string>()});
   }
-  Section section{.key = "yardsticks", .title = "The driver, and others"};
+  Section section = SectionOf(kStudyWords, "yardsticks");
   Table beside_driver = DriverTable(targets, yardsticks);
   if (!beside_driver.rows.empty()) section.tables.push_back(std::move(beside_driver));
   section.tables.push_back(std::move(table));
@@ -121,14 +108,7 @@ std::vector<Observation> WorstOf(const std::vector<Observation>& observations) {
 }
 
 Section WorstSection(const std::vector<Observation>& worst, const std::string& folder) {
-  Table table{.key = "worst",
-              .title = "The worst approaches",
-              .note =
-                  "Not detected, or with the least to spare. The command makes its frames and "
-                  "opens the one in which it is detected, or that of the closest point.",
-              .columns = ColumnsOf("scenario: Scenario; object: Object; distance_m: Detected at; "
-                                   "needed_m: Needed; drawn: Drawn; command: Command"),
-              .is_open = true};
+  Table table = TableOf(kStudyWords, "worst");
   for (const Observation& each : worst) {
     const StudiedObject& object = *each.object;
     const std::string place = folder + "/" + KeptFolder(kWorstFolder, each.approach->scenario);
@@ -141,7 +121,9 @@ Section WorstSection(const std::vector<Observation>& worst, const std::string& f
                               " && railcast-view " + place + "/frames --frame " +
                               std::to_string(object.frame)});
   }
-  return {.key = "worst", .title = "Where it fails", .tables = {std::move(table)}};
+  Section section = SectionOf(kStudyWords, "worst");
+  section.tables = {std::move(table)};
+  return section;
 }
 
 bool SaysNothing(const Section& section) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -16,6 +15,9 @@
 #include "core/certify/certified_figures.h"
 
 namespace railcast {
+
+/// The words of studies (report/words.h).
+extern const char* const kStudyWords;
 
 class ProgramOptions;
 

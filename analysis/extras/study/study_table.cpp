@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <map>
 #include <set>
@@ -7,6 +6,7 @@
 
 #include "analysis/detectability/detection_probability.h"
 #include "analysis/extras/study/study_report.h"
+#include "analysis/report/words.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/program/options.h"
@@ -164,26 +164,15 @@ std::vector<const Factor*> LargestFactors(const std::vector<Observation>& observ
 
 Section TableSection(const std::vector<Observation>& observations,
                      const std::vector<const Factor*>& factors) {
-  Section section{.key = "verdict_by_condition", .title = "Verdict by condition"};
+  Section section = SectionOf(kStudyWords, "verdict_by_condition");
   if (factors.empty()) return section;
-  Table table{
-      .key = "verdict_by_condition",
-      .title = NamesText(factors, " × "),
-      .note =
-          "The verdict as above, for each combination of the values of the kind of object and of "
-          "the factors that matter most, or of those that --table names. d90/95 is the distance at "
-          "which 0.9 are detected with 95 % confidence, needed the greatest one in the cell. Too "
-          "few are fewer than 60 approaches.",
-      .is_open = true};
+  Table table = TableOf(kStudyWords, "verdict_by_condition");
+  table.title = NamesText(factors, " × ");
+  const auto num_answers = static_cast<std::ptrdiff_t>(table.columns.size());
   std::size_t num_combinations = 1;
   for (const Factor* factor : factors) {
-    table.columns.push_back(ColumnOfFactor(*factor));
+    table.columns.insert(table.columns.end() - num_answers, ColumnOfFactor(*factor));
     num_combinations *= factor->levels.size();
-  }
-  for (TableColumn& column :
-       ColumnsOf("answer: Detected in time; approaches: Approaches; in_time_percent: In time; "
-                 "d90_95_m: d90/95; most_needed_m: Needed, at most")) {
-    table.columns.push_back(std::move(column));
   }
   std::map<std::string, std::size_t> num_by_words;
   for (const auto& [levels, cell] : CellsBy(factors, observations)) {

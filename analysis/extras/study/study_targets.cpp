@@ -7,6 +7,7 @@
 #include "analysis/detectability/detect_report.h"
 #include "analysis/detectability/detection_probability.h"
 #include "analysis/estimate/estimate.h"
+#include "analysis/report/words.h"
 #include "core/base/text.h"
 
 namespace railcast {
@@ -58,21 +59,7 @@ std::vector<Headline> VerdictHeadlines(const std::vector<TargetResult>& targets)
 }
 
 Section VerdictSection(const std::vector<TargetResult>& targets) {
-  Table table{
-      .key = "verdicts",
-      .title = "Is it detected before the distance that the train needs?",
-      .note =
-          "Yes if 90 % are detected, with 95 % confidence, by the greatest distance needed, and no "
-          "if with the same confidence they are not, both by the ranks of all distances of "
-          "detection; between the two, it is not shown. The curve is that of hit and miss "
-          "(MIL-HDBK-1823A), which inspects each approach once. The share in time is of the "
-          "approaches that did not begin too near to tell.",
-      .columns = ColumnsOf(
-          "target: Target; answer: Detected in time; approaches: Approaches; detected: Detected; "
-          "in_time_percent: In time; d90_95_m: 0.9 with 95 % confidence at; curve_d90_m: Curve: "
-          "0.9 at; curve_d90_95_m: Curve: with 95 % confidence; most_needed_m: Needed, at most; "
-          "least_detected_at_m: Detected at, at least; asymptote: Asymptote"),
-      .is_open = true};
+  Table table = TableOf(kStudyWords, "verdicts");
   for (const TargetResult& target : targets) {
     const ObservedGroup& seen = target.seen;
     table.rows.push_back({target.name, AnswerOf(seen), seen.num, seen.num_detected,
@@ -80,7 +67,7 @@ Section VerdictSection(const std::vector<TargetResult>& targets) {
                           target.fit.d90_95_m, seen.most_needed_m, target.least_distance_m,
                           target.has_fit() ? AsymptoteCell(target.fit) : Cell(std::string())});
   }
-  Section section{.key = "verdict", .title = "Verdict"};
+  Section section = SectionOf(kStudyWords, "verdict");
   section.tables.push_back(std::move(table));
   for (const TargetResult& target : targets) {
     if (!target.has_fit() || section.charts.size() >= kMaxCharts) continue;
