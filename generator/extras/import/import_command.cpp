@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"

@@ -4,7 +4,6 @@
 #include <iomanip>
 #include <sstream>
 
-#include "core/base/text.h"
 #include "core/scenario/descriptions.h"
 #include "core/scenario/json_writer.h"
 

@@ -97,45 +97,6 @@ struct Change {
   LineDraft::Part part;
 };
 
-class ChangeSearch {
- public:
-  ChangeSearch(const LineDraft& line, std::size_t plateau, double price_of_flat_arc)
-      : price_of_flat_arc_(price_of_flat_arc),
-        before_(line.PartOf(plateau >= kReach ? plateau - kReach : 0,
-                            std::min(line.num_plateaus() - 1, plateau + kReach))),
-        at_(plateau - before_.first) {}
-
-  /// Whether an arc of the part is flat.
-  [[nodiscard]] bool HasFlatArc() const {
-    return std::ranges::any_of(before_.window.plan.plateaus, IsFlatArc);
-  }
-  [[nodiscard]] Change BestChange();
-  /// The cheapest change with fewer flat arcs that leaves no point farther off than a tolerance, or
-  /// than it was before; absent if there is none.
-  [[nodiscard]] std::optional<LineDraft::Part> WithFewerFlatArcs(double tolerance_m);
-
- private:
-  [[nodiscard]] bool IsWhole(std::size_t i) const {
-    return (i > 0 || before_.window.begins_line) &&
-           (i + 1 < before_.window.plan.plateaus.size() || before_.window.ends_line);
-  }
-  template <typename Work>
-  void Try(const Work& work) {
-    LineDraft::Part part = before_;
-    work(part.window);
-    const double cost = part.window.Fit() + PriceOf(part.window.plan, price_of_flat_arc_);
-    const double gain = cost_ - cost;
-    if (gain > best_.gain) best_ = {gain, std::move(part)};
-  }
-  void TryDivisions();
-
-  double price_of_flat_arc_;
-  LineDraft::Part before_;
-  std::size_t at_;
-  double cost_{};
-  Change best_;
-};
-
 std::ptrdiff_t NumFlatArcs(const PlanModel& plan) {
   return std::ranges::count_if(plan.plateaus, IsFlatArc);
 }
@@ -151,88 +112,121 @@ std::vector<double> DistancesOf_m(const PlanWindow& window) {
   }
   return distances_m;
 }
+class ChangeSearch {
+ public:
+  ChangeSearch(const LineDraft& line, std::size_t plateau, double price_of_flat_arc)
+      : price_of_flat_arc_(price_of_flat_arc),
+        before_(line.PartOf(plateau >= kReach ? plateau - kReach : 0,
+                            std::min(line.num_plateaus() - 1, plateau + kReach))),
+        at_(plateau - before_.first) {}
 
-std::optional<LineDraft::Part> ChangeSearch::WithFewerFlatArcs(double tolerance_m) {
-  const std::vector<double> before_m = DistancesOf_m(before_.window);
-  const auto leaves_points = [&](const PlanWindow& window) {
-    return !std::ranges::equal(DistancesOf_m(window), before_m, [&](double now_m, double was_m) {
-      return now_m <= std::max(tolerance_m, was_m);
-    });
-  };
-  const std::ptrdiff_t num_flat = NumFlatArcs(before_.window.plan);
-  std::optional<LineDraft::Part> best;
-  double least_cost = 0.0;
-  const auto consider = [&](const auto& work) {
+  /// Whether an arc of the part is flat.
+  [[nodiscard]] bool HasFlatArc() const {
+    return std::ranges::any_of(before_.window.plan.plateaus, IsFlatArc);
+  }
+  [[nodiscard]] Change BestChange() {
+    cost_ = before_.window.Fit() + PriceOf(before_.window.plan, price_of_flat_arc_);
+    const std::size_t num_plateaus = before_.window.plan.plateaus.size();
+    if (!before_.window.has_fixed_curvature[at_]) {
+      Try([&](PlanWindow& window) {
+        window.plan.plateaus[at_].curvature_per_m = 0.0;
+        window.has_fixed_curvature[at_] = true;
+      });
+    }
+    if (at_ > 0 && at_ + 1 < num_plateaus) {
+      Try([&](PlanWindow& window) { Remove(window, at_); });
+    }
+    if (at_ + 1 < num_plateaus && IsWhole(at_) && IsWhole(at_ + 1)) {
+      Try([&](PlanWindow& window) { Join(window, at_); });
+    }
+    if (IsWhole(at_)) TryDivisions();
+    return best_;
+  }
+
+  /// The cheapest change with fewer flat arcs that leaves no point farther off than a tolerance, or
+  /// than it was before; absent if there is none.
+  [[nodiscard]] std::optional<LineDraft::Part> WithFewerFlatArcs(double tolerance_m) {
+    const std::vector<double> before_m = DistancesOf_m(before_.window);
+    const auto leaves_points = [&](const PlanWindow& window) {
+      return !std::ranges::equal(DistancesOf_m(window), before_m, [&](double now_m, double was_m) {
+        return now_m <= std::max(tolerance_m, was_m);
+      });
+    };
+    const std::ptrdiff_t num_flat = NumFlatArcs(before_.window.plan);
+    std::optional<LineDraft::Part> best;
+    double least_cost = 0.0;
+    const auto consider = [&](const auto& work) {
+      LineDraft::Part part = before_;
+      work(part.window);
+      const double cost = part.window.Fit() + PriceOf(part.window.plan, price_of_flat_arc_);
+      if (NumFlatArcs(part.window.plan) >= num_flat || leaves_points(part.window)) return;
+      if (best && cost >= least_cost) return;
+      best = std::move(part);
+      least_cost = cost;
+    };
+    const auto straighten = [](PlanWindow& window, std::size_t i) {
+      window.plan.plateaus[i].curvature_per_m = 0.0;
+      window.has_fixed_curvature[i] = true;
+    };
+    const std::size_t num_plateaus = before_.window.plan.plateaus.size();
+    consider([&](PlanWindow& window) { straighten(window, at_); });
+    if (at_ > 0 && at_ + 1 < num_plateaus) {
+      consider([&](PlanWindow& window) { Remove(window, at_); });
+    }
+    for (std::size_t first = at_ - std::min<std::size_t>(at_, 1); first <= at_; ++first) {
+      if (first + 1 >= num_plateaus || !IsWhole(first) || !IsWhole(first + 1)) continue;
+      consider([&](PlanWindow& window) {
+        Join(window, first);
+        straighten(window, first);
+      });
+    }
+    return best;
+  }
+
+ private:
+  [[nodiscard]] bool IsWhole(std::size_t i) const {
+    return (i > 0 || before_.window.begins_line) &&
+           (i + 1 < before_.window.plan.plateaus.size() || before_.window.ends_line);
+  }
+  template <typename Work>
+  void Try(const Work& work) {
     LineDraft::Part part = before_;
     work(part.window);
     const double cost = part.window.Fit() + PriceOf(part.window.plan, price_of_flat_arc_);
-    if (NumFlatArcs(part.window.plan) >= num_flat || leaves_points(part.window)) return;
-    if (best && cost >= least_cost) return;
-    best = std::move(part);
-    least_cost = cost;
-  };
-  const auto straighten = [](PlanWindow& window, std::size_t i) {
-    window.plan.plateaus[i].curvature_per_m = 0.0;
-    window.has_fixed_curvature[i] = true;
-  };
-  const std::size_t num_plateaus = before_.window.plan.plateaus.size();
-  consider([&](PlanWindow& window) { straighten(window, at_); });
-  if (at_ > 0 && at_ + 1 < num_plateaus) {
-    consider([&](PlanWindow& window) { Remove(window, at_); });
+    const double gain = cost_ - cost;
+    if (gain > best_.gain) best_ = {gain, std::move(part)};
   }
-  for (std::size_t first = at_ - std::min<std::size_t>(at_, 1); first <= at_; ++first) {
-    if (first + 1 >= num_plateaus || !IsWhole(first) || !IsWhole(first + 1)) continue;
-    consider([&](PlanWindow& window) {
-      Join(window, first);
-      straighten(window, first);
-    });
+  void TryDivisions() {
+    const PlanWindow& window = before_.window;
+    const double begin_m = window.plan.ConstantBegin_m(at_);
+    const double length_m = window.plan.ConstantLength_m(at_);
+    constexpr double kShortest_m = 60.0;
+    if (length_m < kShortest_m) return;
+    const PlanCourse course = window.plan.Course();
+    const double line_m = window.plan.length_m();
+    double worst_m = 0.0;
+    double worst_s_m = 0.0;
+    for (std::size_t i = 0; i < window.points_m.size(); ++i) {
+      const Foot foot = FootOn(course, line_m, window.points_m[i], window.feet_m[i]);
+      const double inside_m = foot.s_m - begin_m;
+      if (inside_m < 0.1 * length_m || inside_m > 0.9 * length_m) continue;
+      if (std::abs(foot.offset_m) <= std::abs(worst_m)) continue;
+      worst_m = foot.offset_m;
+      worst_s_m = foot.s_m;
+    }
+    if (std::abs(worst_m) < kTolerance * window.sigma_m) return;
+    const double share = (worst_s_m - begin_m) / length_m;
+    const double turn_rad = 4.0 * std::abs(worst_m) / length_m;
+    Try([&](PlanWindow& changed) { Divide(changed, at_, share, turn_rad); });
+    Try([&](PlanWindow& changed) { Divide(changed, at_, share, -turn_rad); });
   }
-  return best;
-}
 
-Change ChangeSearch::BestChange() {
-  cost_ = before_.window.Fit() + PriceOf(before_.window.plan, price_of_flat_arc_);
-  const std::size_t num_plateaus = before_.window.plan.plateaus.size();
-  if (!before_.window.has_fixed_curvature[at_]) {
-    Try([&](PlanWindow& window) {
-      window.plan.plateaus[at_].curvature_per_m = 0.0;
-      window.has_fixed_curvature[at_] = true;
-    });
-  }
-  if (at_ > 0 && at_ + 1 < num_plateaus) {
-    Try([&](PlanWindow& window) { Remove(window, at_); });
-  }
-  if (at_ + 1 < num_plateaus && IsWhole(at_) && IsWhole(at_ + 1)) {
-    Try([&](PlanWindow& window) { Join(window, at_); });
-  }
-  if (IsWhole(at_)) TryDivisions();
-  return best_;
-}
-
-void ChangeSearch::TryDivisions() {
-  const PlanWindow& window = before_.window;
-  const double begin_m = window.plan.ConstantBegin_m(at_);
-  const double length_m = window.plan.ConstantLength_m(at_);
-  constexpr double kShortest_m = 60.0;
-  if (length_m < kShortest_m) return;
-  const PlanCourse course = window.plan.Course();
-  const double line_m = window.plan.length_m();
-  double worst_m = 0.0;
-  double worst_s_m = 0.0;
-  for (std::size_t i = 0; i < window.points_m.size(); ++i) {
-    const Foot foot = FootOn(course, line_m, window.points_m[i], window.feet_m[i]);
-    const double inside_m = foot.s_m - begin_m;
-    if (inside_m < 0.1 * length_m || inside_m > 0.9 * length_m) continue;
-    if (std::abs(foot.offset_m) <= std::abs(worst_m)) continue;
-    worst_m = foot.offset_m;
-    worst_s_m = foot.s_m;
-  }
-  if (std::abs(worst_m) < kTolerance * window.sigma_m) return;
-  const double share = (worst_s_m - begin_m) / length_m;
-  const double turn_rad = 4.0 * std::abs(worst_m) / length_m;
-  Try([&](PlanWindow& changed) { Divide(changed, at_, share, turn_rad); });
-  Try([&](PlanWindow& changed) { Divide(changed, at_, share, -turn_rad); });
-}
+  double price_of_flat_arc_;
+  LineDraft::Part before_;
+  std::size_t at_;
+  double cost_{};
+  Change best_;
+};
 
 /// A change that gains less is not worth its time, and might be undone by the next one.
 constexpr double kLeastGain = 0.5;

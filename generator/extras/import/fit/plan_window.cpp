@@ -70,8 +70,51 @@ class Residuals {
         num_inputs_(Parameters().size()),
         feet_m_(window.feet_m) {}
 
-  [[nodiscard]] Eigen::VectorXd Parameters() const;
-  [[nodiscard]] PlanModel PlanOf(const Eigen::VectorXd& parameters) const;
+  [[nodiscard]] Eigen::VectorXd Parameters() const {
+    const PlanModel& plan = window_->plan;
+    std::vector<double> values;
+    if (window_->begins_line) values.insert(values.end(), 3, 0.0);
+    for (std::size_t i = 0; i < plan.plateaus.size(); ++i) {
+      values.push_back(std::log(std::max(0.5, plan.ConstantLength_m(i))));
+      if (!window_->has_fixed_curvature[i]) {
+        values.push_back(std::clamp(plan.plateaus[i].curvature_per_m / kCurvatureUnit_per_m,
+                                    -0.9 * kSharpestTried, 0.9 * kSharpestTried));
+      }
+    }
+    for (const double length_m : plan.clothoids_m) {
+      values.push_back(std::log(std::max(0.5, length_m)));
+    }
+    return Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  }
+
+  [[nodiscard]] PlanModel PlanOf(const Eigen::VectorXd& parameters) const {
+    const auto length_m = [&](double logarithm) {
+      return std::exp(std::clamp(logarithm, std::log(kShortestTried_m), std::log(longest_m_)));
+    };
+    PlanModel plan = window_->plan;
+    Eigen::Index next = 0;
+    if (window_->begins_line) {
+      plan.start.x_m += parameters[0];
+      plan.start.y_m += parameters[1];
+      plan.start.heading_rad += kHeadingUnit_rad * parameters[2];
+      next = 3;
+    }
+    for (std::size_t i = 0; i < plan.plateaus.size(); ++i) {
+      Plateau& plateau = plan.plateaus[i];
+      plateau.length_m = length_m(parameters[next++]);
+      if (window_->has_fixed_curvature[i]) continue;
+      plateau.curvature_per_m =
+          kCurvatureUnit_per_m * std::clamp(parameters[next++], -kSharpestTried, kSharpestTried);
+    }
+    for (std::size_t i = 0; i < plan.clothoids_m.size(); ++i) {
+      const double clothoid_m = length_m(parameters[next++]);
+      plan.clothoids_m[i] = clothoid_m;
+      plan.plateaus[i].length_m += 0.5 * clothoid_m;
+      plan.plateaus[i + 1].length_m += 0.5 * clothoid_m;
+    }
+    return plan;
+  }
+
   [[nodiscard]] const std::vector<double>& feet_m() const { return feet_m_; }
   [[nodiscard]] std::size_t num_feet() const { return num_feet_; }
 
@@ -82,7 +125,50 @@ class Residuals {
     return static_cast<Eigen::Index>(window_->points_m.size() + 2 * plan.clothoids_m.size() +
                                      2 * plan.plateaus.size() + kNumEndResiduals);
   }
-  int operator()(const Eigen::VectorXd& parameters, Eigen::VectorXd& residuals) const;
+  int operator()(const Eigen::VectorXd& parameters, Eigen::VectorXd& residuals) const {
+    const PlanModel plan = PlanOf(parameters);
+    const PlanCourse course = plan.Course();
+    const double length_m = plan.length_m();
+    residuals.setZero(values());
+    Eigen::Index next = 0;
+    Foot first;
+    Foot last;
+    num_feet_ += feet_m_.size();
+    for (std::size_t i = 0; i < feet_m_.size(); ++i) {
+      last = FootOn(course, length_m, window_->points_m[i], feet_m_[i]);
+      feet_m_[i] = last.s_m;
+      if (i == 0) first = last;
+      residuals[next++] = Robust(last.offset_m / window_->sigma_m);
+    }
+    for (std::size_t i = 0; i < plan.clothoids_m.size(); ++i) {
+      const double usual_m = UsualClothoid_m(window_->speed_kmph, plan.plateaus[i].curvature_per_m,
+                                             plan.plateaus[i + 1].curvature_per_m);
+      residuals[next++] = 2.0 * std::log(plan.clothoids_m[i] / usual_m);
+      if (window_->speed_kmph > kFastLine_kmph) {
+        residuals[next] =
+            std::max(0.0, 5.0 * std::log(kLeastShareOfUsual * usual_m / plan.clothoids_m[i]));
+      }
+      ++next;
+    }
+    const double sharpest_per_m = SharpestCurvature_per_m(window_->speed_kmph);
+    for (std::size_t i = 0; i < plan.plateaus.size(); ++i) {
+      const double curvature_per_m = std::max(1e-9, std::abs(plan.plateaus[i].curvature_per_m));
+      residuals[next++] =
+          std::max(0.0, std::log(kShortestUsualPlateau_m / plan.ConstantLength_m(i)));
+      residuals[next++] = std::max(0.0, 5.0 * std::log(curvature_per_m / sharpest_per_m));
+    }
+    if (window_->begins_line) residuals[next] = (first.s_m + first.beyond_m) / kLineEndTolerance_m;
+    ++next;
+    if (window_->ends_line) {
+      residuals[next] = (last.s_m + last.beyond_m - length_m) / kLineEndTolerance_m;
+    } else {
+      const PlanPoint end = course.At(length_m);
+      residuals[next + 1] = (end.x_m - window_->end.x_m) / kEndTolerance_m;
+      residuals[next + 2] = (end.y_m - window_->end.y_m) / kEndTolerance_m;
+      residuals[next + 3] = (end.heading_rad - window_->end.heading_rad) / kEndTolerance_rad;
+    }
+    return 0;
+  }
 
  private:
   static constexpr std::size_t kNumEndResiduals = 5;
@@ -93,95 +179,6 @@ class Residuals {
   mutable std::vector<double> feet_m_;  ///< Of the last evaluation: guesses for the next one.
   mutable std::size_t num_feet_ = 0;    ///< Sought so far.
 };
-
-Eigen::VectorXd Residuals::Parameters() const {
-  const PlanModel& plan = window_->plan;
-  std::vector<double> values;
-  if (window_->begins_line) values.insert(values.end(), 3, 0.0);
-  for (std::size_t i = 0; i < plan.plateaus.size(); ++i) {
-    values.push_back(std::log(std::max(0.5, plan.ConstantLength_m(i))));
-    if (!window_->has_fixed_curvature[i]) {
-      values.push_back(std::clamp(plan.plateaus[i].curvature_per_m / kCurvatureUnit_per_m,
-                                  -0.9 * kSharpestTried, 0.9 * kSharpestTried));
-    }
-  }
-  for (const double length_m : plan.clothoids_m) {
-    values.push_back(std::log(std::max(0.5, length_m)));
-  }
-  return Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
-
-PlanModel Residuals::PlanOf(const Eigen::VectorXd& parameters) const {
-  const auto length_m = [&](double logarithm) {
-    return std::exp(std::clamp(logarithm, std::log(kShortestTried_m), std::log(longest_m_)));
-  };
-  PlanModel plan = window_->plan;
-  Eigen::Index next = 0;
-  if (window_->begins_line) {
-    plan.start.x_m += parameters[0];
-    plan.start.y_m += parameters[1];
-    plan.start.heading_rad += kHeadingUnit_rad * parameters[2];
-    next = 3;
-  }
-  for (std::size_t i = 0; i < plan.plateaus.size(); ++i) {
-    Plateau& plateau = plan.plateaus[i];
-    plateau.length_m = length_m(parameters[next++]);
-    if (window_->has_fixed_curvature[i]) continue;
-    plateau.curvature_per_m =
-        kCurvatureUnit_per_m * std::clamp(parameters[next++], -kSharpestTried, kSharpestTried);
-  }
-  for (std::size_t i = 0; i < plan.clothoids_m.size(); ++i) {
-    const double clothoid_m = length_m(parameters[next++]);
-    plan.clothoids_m[i] = clothoid_m;
-    plan.plateaus[i].length_m += 0.5 * clothoid_m;
-    plan.plateaus[i + 1].length_m += 0.5 * clothoid_m;
-  }
-  return plan;
-}
-
-int Residuals::operator()(const Eigen::VectorXd& parameters, Eigen::VectorXd& residuals) const {
-  const PlanModel plan = PlanOf(parameters);
-  const PlanCourse course = plan.Course();
-  const double length_m = plan.length_m();
-  residuals.setZero(values());
-  Eigen::Index next = 0;
-  Foot first;
-  Foot last;
-  num_feet_ += feet_m_.size();
-  for (std::size_t i = 0; i < feet_m_.size(); ++i) {
-    last = FootOn(course, length_m, window_->points_m[i], feet_m_[i]);
-    feet_m_[i] = last.s_m;
-    if (i == 0) first = last;
-    residuals[next++] = Robust(last.offset_m / window_->sigma_m);
-  }
-  for (std::size_t i = 0; i < plan.clothoids_m.size(); ++i) {
-    const double usual_m = UsualClothoid_m(window_->speed_kmph, plan.plateaus[i].curvature_per_m,
-                                           plan.plateaus[i + 1].curvature_per_m);
-    residuals[next++] = 2.0 * std::log(plan.clothoids_m[i] / usual_m);
-    if (window_->speed_kmph > kFastLine_kmph) {
-      residuals[next] =
-          std::max(0.0, 5.0 * std::log(kLeastShareOfUsual * usual_m / plan.clothoids_m[i]));
-    }
-    ++next;
-  }
-  const double sharpest_per_m = SharpestCurvature_per_m(window_->speed_kmph);
-  for (std::size_t i = 0; i < plan.plateaus.size(); ++i) {
-    const double curvature_per_m = std::max(1e-9, std::abs(plan.plateaus[i].curvature_per_m));
-    residuals[next++] = std::max(0.0, std::log(kShortestUsualPlateau_m / plan.ConstantLength_m(i)));
-    residuals[next++] = std::max(0.0, 5.0 * std::log(curvature_per_m / sharpest_per_m));
-  }
-  if (window_->begins_line) residuals[next] = (first.s_m + first.beyond_m) / kLineEndTolerance_m;
-  ++next;
-  if (window_->ends_line) {
-    residuals[next] = (last.s_m + last.beyond_m - length_m) / kLineEndTolerance_m;
-  } else {
-    const PlanPoint end = course.At(length_m);
-    residuals[next + 1] = (end.x_m - window_->end.x_m) / kEndTolerance_m;
-    residuals[next + 2] = (end.y_m - window_->end.y_m) / kEndTolerance_m;
-    residuals[next + 3] = (end.heading_rad - window_->end.heading_rad) / kEndTolerance_rad;
-  }
-  return 0;
-}
 
 }  // namespace
 

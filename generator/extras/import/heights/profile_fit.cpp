@@ -32,29 +32,168 @@ class ProfileDraft {
   ProfileDraft(std::span<const HeightSample> samples, const ProfilePrior& prior);
 
   /// Removes and moves knots until nothing gains.
-  void Simplify();
+  void Simplify() {
+    constexpr int kMostRounds = 8;
+    for (int round = 0; round < kMostRounds; ++round) {
+      const bool has_removed = RemoveAll();
+      if (!has_removed && round > 0) return;
+      if (!MoveAll()) return;
+    }
+  }
+
   /// Removes knots until the vertical curve at each has the room it needs.
-  void MakeRoom();
+  void MakeRoom() {
+    while (knots_.size() > 2) {
+      std::optional<std::size_t> worst;
+      double worst_lack_m = 0.0;
+      for (std::size_t i = 1; i + 1 < knots_.size(); ++i) {
+        for (const std::size_t other : {i - 1, i + 1}) {
+          const bool is_end = other == 0 || other + 1 == knots_.size();
+          const double needed_m = kRoom * (is_end ? 0.5 : 1.0) * CurveLength_m(i);
+          const double lack_m = needed_m - std::abs(knots_[other].s_m - knots_[i].s_m);
+          if (lack_m <= worst_lack_m) continue;
+          worst_lack_m = lack_m;
+          // Of the two, the one that matters less.
+          worst = is_end || GainWithout(i) >= GainWithout(other) ? i : other;
+        }
+      }
+      if (!worst) return;
+      Remove(*worst);
+    }
+  }
+
   /// One knot in place of knot `first` and the next one, where the gradients before and behind both
   /// meet, if these are the beginning and the end of what may be one vertical curve.
-  [[nodiscard]] std::optional<ProfileDraft> Merged(std::size_t first) const;
+  [[nodiscard]] std::optional<ProfileDraft> Merged(std::size_t first) const {
+    if (first == 0 || first + 2 >= knots_.size()) return std::nullopt;
+    const Knot& begin = knots_[first];
+    const Knot& end = knots_[first + 1];
+    const double before = GradientAfter(knots_, first - 1);
+    const double after = GradientAfter(knots_, first + 1);
+    const double s_m =
+        (end.z_m - begin.z_m + before * begin.s_m - after * end.s_m) / (before - after);
+    if (!(s_m >= begin.s_m && s_m <= end.s_m)) return std::nullopt;
+    constexpr double kLongest = 1.5;  // Times the needed length.
+    const double needed_m =
+        NeededVerticalRadius_m(prior_->speed_kmph(s_m)) * std::abs(after - before);
+    if (end.s_m - begin.s_m > kLongest * needed_m + kNearestKnots_m) return std::nullopt;
+    ProfileDraft merged = *this;
+    merged.knots_[first] = {s_m, begin.z_m + before * (s_m - begin.s_m)};
+    merged.knots_.erase(merged.knots_.begin() + static_cast<std::ptrdiff_t>(first) + 1);
+    return merged;
+  }
+
   /// Fits all heights to others than those of the beginning.
-  void FitHeights(std::span<const HeightSample> samples);
+  void FitHeights(std::span<const HeightSample> samples) {
+    KnotWindow whole{knots_, samples};
+    whole.Fit(prior_->sigma_m);
+    knots_ = std::move(whole.knots);
+  }
 
   [[nodiscard]] const std::vector<Knot>& knots() const { return knots_; }
   /// Length of the vertical curve at a knot; 0 at the ends.
-  [[nodiscard]] double CurveLength_m(std::size_t knot) const;
+  [[nodiscard]] double CurveLength_m(std::size_t knot) const {
+    if (knot == 0 || knot + 1 == knots_.size()) return 0.0;
+    return NeededVerticalRadius_m(prior_->speed_kmph(knots_[knot].s_m)) *
+           std::abs(GradientAfter(knots_, knot) - GradientAfter(knots_, knot - 1));
+  }
 
  private:
-  [[nodiscard]] KnotWindow WindowAbout(std::size_t knot) const;
+  [[nodiscard]] KnotWindow WindowAbout(std::size_t knot) const {
+    const std::size_t first = knot >= kKnotReach ? knot - kKnotReach : 0;
+    const std::size_t last = std::min(knots_.size() - 1, knot + kKnotReach);
+    KnotWindow window;
+    window.knots.assign(knots_.begin() + static_cast<std::ptrdiff_t>(first),
+                        knots_.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+    window.has_fixed_begin = first > 0;
+    window.has_fixed_end = last + 1 < knots_.size();
+    const auto begin =
+        std::ranges::lower_bound(samples_, knots_[first].s_m, {}, &HeightSample::s_m);
+    const auto end = std::ranges::upper_bound(samples_, knots_[last].s_m, {}, &HeightSample::s_m);
+    window.samples = {begin, end};
+    return window;
+  }
+
   [[nodiscard]] double CostWithout(std::size_t knot) const;
   /// What removing a knot gains.
-  [[nodiscard]] double GainWithout(std::size_t knot) const;
-  void Remove(std::size_t knot);
-  bool RemoveAll();
-  bool Move(std::size_t knot, double step_m);
-  bool MoveAll();
-  void Replace(std::size_t knot, const KnotWindow& window, std::size_t num_before);
+  [[nodiscard]] double GainWithout(std::size_t knot) const {
+    KnotWindow before = WindowAbout(knot);
+    KnotWindow after = before;
+    const std::size_t at = std::min(knot, kKnotReach);
+    after.knots.erase(after.knots.begin() + static_cast<std::ptrdiff_t>(at));
+    return kKnotPrice + before.Fit(prior_->sigma_m) - after.Fit(prior_->sigma_m);
+  }
+
+  void Remove(std::size_t knot) {
+    KnotWindow window = WindowAbout(knot);
+    const std::size_t num_before = window.knots.size();
+    const std::size_t at = std::min(knot, kKnotReach);
+    window.knots.erase(window.knots.begin() + static_cast<std::ptrdiff_t>(at));
+    window.Fit(prior_->sigma_m);
+    Replace(knot, window, num_before);
+  }
+
+  bool RemoveAll() {
+    std::vector<std::optional<double>> gains(knots_.size());
+    bool has_removed = false;
+    while (knots_.size() > 2) {
+      std::size_t best = 0;
+      for (std::size_t i = 1; i + 1 < knots_.size(); ++i) {
+        if (!gains[i]) gains[i] = GainWithout(i);
+        if (best == 0 || *gains[i] > *gains[best]) best = i;
+      }
+      if (!(*gains[best] > 0.0)) break;
+      Remove(best);
+      has_removed = true;
+      gains.erase(gains.begin() + static_cast<std::ptrdiff_t>(best));
+      // Those whose windows touch the one that was fitted anew.
+      const std::size_t first = best > 2 * kKnotReach ? best - 2 * kKnotReach : 0;
+      for (std::size_t i = first; i < std::min(gains.size(), best + 2 * kKnotReach); ++i) {
+        gains[i].reset();
+      }
+    }
+    return has_removed;
+  }
+
+  bool Move(std::size_t knot, double step_m) {
+    const double to_m = knots_[knot].s_m + step_m;
+    if (to_m < knots_[knot - 1].s_m + kNearestKnots_m ||
+        to_m > knots_[knot + 1].s_m - kNearestKnots_m) {
+      return false;
+    }
+    KnotWindow before = WindowAbout(knot);
+    KnotWindow after = before;
+    after.knots[std::min(knot, kKnotReach)].s_m = to_m;
+    constexpr double kLeastGain = 1e-6;
+    if (!(before.Fit(prior_->sigma_m) - after.Fit(prior_->sigma_m) > kLeastGain)) return false;
+    Replace(knot, after, after.knots.size());
+    return true;
+  }
+
+  bool MoveAll() {
+    constexpr double kLongestStep_m = 64.0;
+    constexpr double kShortestStep_m = 1.0;
+    constexpr int kMostMoves = 10;  // Of one knot at one step.
+    bool has_moved = false;
+    for (double step_m = kLongestStep_m; step_m >= kShortestStep_m; step_m *= 0.5) {
+      for (std::size_t i = 1; i + 1 < knots_.size(); ++i) {
+        for (const double signed_m : {step_m, -step_m}) {
+          int num_moves = 0;
+          while (num_moves < kMostMoves && Move(i, signed_m)) ++num_moves;
+          has_moved = has_moved || num_moves > 0;
+          if (num_moves > 0) break;
+        }
+      }
+    }
+    return has_moved;
+  }
+
+  void Replace(std::size_t knot, const KnotWindow& window, std::size_t num_before) {
+    const std::size_t first = knot >= kKnotReach ? knot - kKnotReach : 0;
+    const auto begin = knots_.begin() + static_cast<std::ptrdiff_t>(first);
+    knots_.insert(knots_.erase(begin, begin + static_cast<std::ptrdiff_t>(num_before)),
+                  window.knots.begin(), window.knots.end());
+  }
 
   std::span<const HeightSample> samples_;
   const ProfilePrior* prior_;
@@ -73,159 +212,6 @@ ProfileDraft::ProfileDraft(std::span<const HeightSample> samples, const ProfileP
   }
   knots_.push_back({prior.length_m, samples.back().z_m});
   FitHeights(samples);
-}
-
-void ProfileDraft::FitHeights(std::span<const HeightSample> samples) {
-  KnotWindow whole{knots_, samples};
-  whole.Fit(prior_->sigma_m);
-  knots_ = std::move(whole.knots);
-}
-
-double ProfileDraft::CurveLength_m(std::size_t knot) const {
-  if (knot == 0 || knot + 1 == knots_.size()) return 0.0;
-  return NeededVerticalRadius_m(prior_->speed_kmph(knots_[knot].s_m)) *
-         std::abs(GradientAfter(knots_, knot) - GradientAfter(knots_, knot - 1));
-}
-
-KnotWindow ProfileDraft::WindowAbout(std::size_t knot) const {
-  const std::size_t first = knot >= kKnotReach ? knot - kKnotReach : 0;
-  const std::size_t last = std::min(knots_.size() - 1, knot + kKnotReach);
-  KnotWindow window;
-  window.knots.assign(knots_.begin() + static_cast<std::ptrdiff_t>(first),
-                      knots_.begin() + static_cast<std::ptrdiff_t>(last) + 1);
-  window.has_fixed_begin = first > 0;
-  window.has_fixed_end = last + 1 < knots_.size();
-  const auto begin = std::ranges::lower_bound(samples_, knots_[first].s_m, {}, &HeightSample::s_m);
-  const auto end = std::ranges::upper_bound(samples_, knots_[last].s_m, {}, &HeightSample::s_m);
-  window.samples = {begin, end};
-  return window;
-}
-
-void ProfileDraft::Replace(std::size_t knot, const KnotWindow& window, std::size_t num_before) {
-  const std::size_t first = knot >= kKnotReach ? knot - kKnotReach : 0;
-  const auto begin = knots_.begin() + static_cast<std::ptrdiff_t>(first);
-  knots_.insert(knots_.erase(begin, begin + static_cast<std::ptrdiff_t>(num_before)),
-                window.knots.begin(), window.knots.end());
-}
-
-double ProfileDraft::GainWithout(std::size_t knot) const {
-  KnotWindow before = WindowAbout(knot);
-  KnotWindow after = before;
-  const std::size_t at = std::min(knot, kKnotReach);
-  after.knots.erase(after.knots.begin() + static_cast<std::ptrdiff_t>(at));
-  return kKnotPrice + before.Fit(prior_->sigma_m) - after.Fit(prior_->sigma_m);
-}
-
-void ProfileDraft::Remove(std::size_t knot) {
-  KnotWindow window = WindowAbout(knot);
-  const std::size_t num_before = window.knots.size();
-  const std::size_t at = std::min(knot, kKnotReach);
-  window.knots.erase(window.knots.begin() + static_cast<std::ptrdiff_t>(at));
-  window.Fit(prior_->sigma_m);
-  Replace(knot, window, num_before);
-}
-
-bool ProfileDraft::RemoveAll() {
-  std::vector<std::optional<double>> gains(knots_.size());
-  bool has_removed = false;
-  while (knots_.size() > 2) {
-    std::size_t best = 0;
-    for (std::size_t i = 1; i + 1 < knots_.size(); ++i) {
-      if (!gains[i]) gains[i] = GainWithout(i);
-      if (best == 0 || *gains[i] > *gains[best]) best = i;
-    }
-    if (!(*gains[best] > 0.0)) break;
-    Remove(best);
-    has_removed = true;
-    gains.erase(gains.begin() + static_cast<std::ptrdiff_t>(best));
-    // Those whose windows touch the one that was fitted anew.
-    const std::size_t first = best > 2 * kKnotReach ? best - 2 * kKnotReach : 0;
-    for (std::size_t i = first; i < std::min(gains.size(), best + 2 * kKnotReach); ++i) {
-      gains[i].reset();
-    }
-  }
-  return has_removed;
-}
-
-bool ProfileDraft::Move(std::size_t knot, double step_m) {
-  const double to_m = knots_[knot].s_m + step_m;
-  if (to_m < knots_[knot - 1].s_m + kNearestKnots_m ||
-      to_m > knots_[knot + 1].s_m - kNearestKnots_m) {
-    return false;
-  }
-  KnotWindow before = WindowAbout(knot);
-  KnotWindow after = before;
-  after.knots[std::min(knot, kKnotReach)].s_m = to_m;
-  constexpr double kLeastGain = 1e-6;
-  if (!(before.Fit(prior_->sigma_m) - after.Fit(prior_->sigma_m) > kLeastGain)) return false;
-  Replace(knot, after, after.knots.size());
-  return true;
-}
-
-bool ProfileDraft::MoveAll() {
-  constexpr double kLongestStep_m = 64.0;
-  constexpr double kShortestStep_m = 1.0;
-  constexpr int kMostMoves = 10;  // Of one knot at one step.
-  bool has_moved = false;
-  for (double step_m = kLongestStep_m; step_m >= kShortestStep_m; step_m *= 0.5) {
-    for (std::size_t i = 1; i + 1 < knots_.size(); ++i) {
-      for (const double signed_m : {step_m, -step_m}) {
-        int num_moves = 0;
-        while (num_moves < kMostMoves && Move(i, signed_m)) ++num_moves;
-        has_moved = has_moved || num_moves > 0;
-        if (num_moves > 0) break;
-      }
-    }
-  }
-  return has_moved;
-}
-
-void ProfileDraft::Simplify() {
-  constexpr int kMostRounds = 8;
-  for (int round = 0; round < kMostRounds; ++round) {
-    const bool has_removed = RemoveAll();
-    if (!has_removed && round > 0) return;
-    if (!MoveAll()) return;
-  }
-}
-
-void ProfileDraft::MakeRoom() {
-  while (knots_.size() > 2) {
-    std::optional<std::size_t> worst;
-    double worst_lack_m = 0.0;
-    for (std::size_t i = 1; i + 1 < knots_.size(); ++i) {
-      for (const std::size_t other : {i - 1, i + 1}) {
-        const bool is_end = other == 0 || other + 1 == knots_.size();
-        const double needed_m = kRoom * (is_end ? 0.5 : 1.0) * CurveLength_m(i);
-        const double lack_m = needed_m - std::abs(knots_[other].s_m - knots_[i].s_m);
-        if (lack_m <= worst_lack_m) continue;
-        worst_lack_m = lack_m;
-        // Of the two, the one that matters less.
-        worst = is_end || GainWithout(i) >= GainWithout(other) ? i : other;
-      }
-    }
-    if (!worst) return;
-    Remove(*worst);
-  }
-}
-
-std::optional<ProfileDraft> ProfileDraft::Merged(std::size_t first) const {
-  if (first == 0 || first + 2 >= knots_.size()) return std::nullopt;
-  const Knot& begin = knots_[first];
-  const Knot& end = knots_[first + 1];
-  const double before = GradientAfter(knots_, first - 1);
-  const double after = GradientAfter(knots_, first + 1);
-  const double s_m =
-      (end.z_m - begin.z_m + before * begin.s_m - after * end.s_m) / (before - after);
-  if (!(s_m >= begin.s_m && s_m <= end.s_m)) return std::nullopt;
-  constexpr double kLongest = 1.5;  // Times the needed length.
-  const double needed_m =
-      NeededVerticalRadius_m(prior_->speed_kmph(s_m)) * std::abs(after - before);
-  if (end.s_m - begin.s_m > kLongest * needed_m + kNearestKnots_m) return std::nullopt;
-  ProfileDraft merged = *this;
-  merged.knots_[first] = {s_m, begin.z_m + before * (s_m - begin.s_m)};
-  merged.knots_.erase(merged.knots_.begin() + static_cast<std::ptrdiff_t>(first) + 1);
-  return merged;
 }
 
 /// Gradients between knots, rounded for files.

@@ -59,17 +59,121 @@ void AddTagsIn(const Json& properties, MapTags& tags) {
 
 class GeoJsonReader {
  public:
-  void ReadObject(const Json& object, const std::string& pointer, const MapTags& tags, int depth);
+  void ReadObject(const Json& object, const std::string& pointer, const MapTags& tags, int depth) {
+    constexpr int kDeepest = 8;
+    if (!object.is_object()) return;
+    if (depth > kDeepest) {
+      errors_.Add({pointer, "must not be nested deeper than 8 levels", "more"});
+      return;
+    }
+    CheckSystem(object, pointer);
+    MapTags own = tags;
+    const std::size_t num_before = lines_.size();
+    if (object.contains("properties")) AddTagsIn(object["properties"], own);
+    for (const char* key : {"features", "geometries"}) {
+      if (!object.contains(key) || !object[key].is_array()) continue;
+      for (std::size_t i = 0; i < object[key].size(); ++i) {
+        ReadObject(object[key][i], pointer + "/" + key + "/" + std::to_string(i), own, depth + 1);
+      }
+    }
+    if (object.contains("geometry")) {
+      ReadObject(object["geometry"], pointer + "/geometry", own, depth + 1);
+    }
+    if (object.contains("coordinates")) ReadCoordinates(object, pointer, own);
+    const bool is_drawn =
+        std::any_of(lines_.begin() + static_cast<std::ptrdiff_t>(num_before), lines_.end(),
+                    [](const MapLine& line) { return !line.is_point; });
+    const std::string_view railway = TagOf(own, "railway");
+    const bool is_empty = object.contains("geometry") && object["geometry"].is_null();
+    const bool may_be_track = IsTrack(railway) || (railway.empty() && is_empty);
+    if (!object.contains("properties") || is_drawn || !may_be_track) return;
+    remarks_.push_back({RemarkKind::kLinesLeftOut, pointer, 1, "it has no line"});
+  }
+
   [[nodiscard]] ErrorList& errors() { return errors_; }
   [[nodiscard]] std::vector<MapLine>& lines() { return lines_; }
   [[nodiscard]] std::vector<Remark>& remarks() { return remarks_; }
 
  private:
-  void CheckSystem(const Json& object, const std::string& pointer);
-  void ReadCoordinates(const Json& object, const std::string& pointer, const MapTags& tags);
+  /// Older files may name another system than the only one of GeoJSON today.
+  void CheckSystem(const Json& object, const std::string& pointer) {
+    if (!object.contains("crs") || object["crs"].is_null()) return;
+    const std::string text = object["crs"].dump();
+    constexpr auto kSame = std::to_array<std::string_view>({"CRS84", "4326", "4979", "4258"});
+    const bool is_same = std::ranges::any_of(
+        kSame, [&](std::string_view name) { return text.find(name) != std::string::npos; });
+    if (is_same) return;
+    errors_.Add(
+        {pointer + "/crs",
+         "must be WGS 84, as GeoJSON has it (ogr2ogr -t_srs EPSG:4326 OUT.geojson IN.geojson "
+         "converts it)",
+         ShownText(text)});
+  }
+
+  void ReadCoordinates(const Json& object, const std::string& pointer, const MapTags& tags) {
+    struct Kind {
+      const char* type;
+      int depth;  ///< Of the lists of positions.
+      bool is_area;
+    };
+    constexpr std::array<Kind, 6> kKinds = {{{"Point", 0, false},
+                                             {"MultiPoint", 1, false},
+                                             {"LineString", 1, false},
+                                             {"MultiLineString", 2, false},
+                                             {"Polygon", 2, true},
+                                             {"MultiPolygon", 3, true}}};
+    const Json& coordinates = object["coordinates"];
+    const std::string place = pointer + "/coordinates";
+    const auto kind = std::ranges::find_if(kKinds, [&](const Kind& one) {
+      return object.contains("type") && object["type"] == one.type;
+    });
+    if (kind == kKinds.end()) {
+      errors_.Add({pointer + "/type", "must be a geometry of GeoJSON",
+                   object.contains("type") ? GotOf(object["type"]) : "none"});
+      return;
+    }
+    MapLine line{.place = pointer, .points_deg = {}, .heights_m = {}, .tags = tags};
+    line.is_area = kind->is_area;
+    line.is_point = kind->depth == 0 || kind == kKinds.begin() + 1;
+    if (kind->depth > 0) return ReadLists(coordinates, kind->depth, line, place);
+    AddPosition(coordinates, place, line);
+    lines_.push_back(std::move(line));
+  }
+
   /// Reads lists of positions that are nested so deep as lines.
-  void ReadLists(const Json& list, int depth, const MapLine& like, const std::string& pointer);
-  void AddPosition(const Json& position, const std::string& pointer, MapLine& line);
+  void ReadLists(const Json& list, int depth, const MapLine& like, const std::string& pointer) {
+    if (!CheckList(list, pointer)) return;
+    MapLine line = like;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const std::string place = pointer + "/" + std::to_string(i);
+      if (depth > 1) {
+        ReadLists(list[i], depth - 1, like, place);
+        // Of an area, all but the first are holes.
+        if (like.is_area && depth == 2) break;
+      } else {
+        AddPosition(list[i], place, line);
+      }
+    }
+    if (depth == 1) lines_.push_back(std::move(line));
+  }
+
+  void AddPosition(const Json& position, const std::string& pointer, MapLine& line) {
+    if (!CheckList(position, pointer)) return;
+    if (position.size() < 2) {
+      errors_.Add({pointer, "must have a longitude and a latitude",
+                   std::to_string(position.size()) + " numbers"});
+      return;
+    }
+    for (std::size_t i = 0; i < position.size(); ++i) {
+      if (position[i].is_number()) continue;
+      errors_.Add({pointer + "/" + std::to_string(i), "must be a number", GotOf(position[i])});
+      return;
+    }
+    line.points_deg.emplace_back(position[0].get<double>(), position[1].get<double>());
+    line.heights_m.push_back(position.size() > 2 ? std::optional(position[2].get<double>())
+                                                 : std::nullopt);
+  }
+
   [[nodiscard]] bool CheckList(const Json& list, const std::string& pointer) {
     if (list.is_array()) return true;
     errors_.Add({pointer, "must be a list of coordinates", GotOf(list)});
@@ -80,122 +184,6 @@ class GeoJsonReader {
   std::vector<MapLine> lines_;
   std::vector<Remark> remarks_;
 };
-
-void GeoJsonReader::AddPosition(const Json& position, const std::string& pointer, MapLine& line) {
-  if (!CheckList(position, pointer)) return;
-  if (position.size() < 2) {
-    errors_.Add({pointer, "must have a longitude and a latitude",
-                 std::to_string(position.size()) + " numbers"});
-    return;
-  }
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    if (position[i].is_number()) continue;
-    errors_.Add({pointer + "/" + std::to_string(i), "must be a number", GotOf(position[i])});
-    return;
-  }
-  line.points_deg.emplace_back(position[0].get<double>(), position[1].get<double>());
-  line.heights_m.push_back(position.size() > 2 ? std::optional(position[2].get<double>())
-                                               : std::nullopt);
-}
-
-void GeoJsonReader::ReadLists(const Json& list,
-                              int depth,
-                              const MapLine& like,
-                              const std::string& pointer) {
-  if (!CheckList(list, pointer)) return;
-  MapLine line = like;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const std::string place = pointer + "/" + std::to_string(i);
-    if (depth > 1) {
-      ReadLists(list[i], depth - 1, like, place);
-      // Of an area, all but the first are holes.
-      if (like.is_area && depth == 2) break;
-    } else {
-      AddPosition(list[i], place, line);
-    }
-  }
-  if (depth == 1) lines_.push_back(std::move(line));
-}
-
-void GeoJsonReader::ReadCoordinates(const Json& object,
-                                    const std::string& pointer,
-                                    const MapTags& tags) {
-  struct Kind {
-    const char* type;
-    int depth;  ///< Of the lists of positions.
-    bool is_area;
-  };
-  constexpr std::array<Kind, 6> kKinds = {{{"Point", 0, false},
-                                           {"MultiPoint", 1, false},
-                                           {"LineString", 1, false},
-                                           {"MultiLineString", 2, false},
-                                           {"Polygon", 2, true},
-                                           {"MultiPolygon", 3, true}}};
-  const Json& coordinates = object["coordinates"];
-  const std::string place = pointer + "/coordinates";
-  const auto kind = std::ranges::find_if(kKinds, [&](const Kind& one) {
-    return object.contains("type") && object["type"] == one.type;
-  });
-  if (kind == kKinds.end()) {
-    errors_.Add({pointer + "/type", "must be a geometry of GeoJSON",
-                 object.contains("type") ? GotOf(object["type"]) : "none"});
-    return;
-  }
-  MapLine line{.place = pointer, .points_deg = {}, .heights_m = {}, .tags = tags};
-  line.is_area = kind->is_area;
-  line.is_point = kind->depth == 0 || kind == kKinds.begin() + 1;
-  if (kind->depth > 0) return ReadLists(coordinates, kind->depth, line, place);
-  AddPosition(coordinates, place, line);
-  lines_.push_back(std::move(line));
-}
-
-/// Older files may name another system than the only one of GeoJSON today.
-void GeoJsonReader::CheckSystem(const Json& object, const std::string& pointer) {
-  if (!object.contains("crs") || object["crs"].is_null()) return;
-  const std::string text = object["crs"].dump();
-  constexpr auto kSame = std::to_array<std::string_view>({"CRS84", "4326", "4979", "4258"});
-  const bool is_same = std::ranges::any_of(
-      kSame, [&](std::string_view name) { return text.find(name) != std::string::npos; });
-  if (is_same) return;
-  errors_.Add({pointer + "/crs",
-               "must be WGS 84, as GeoJSON has it (ogr2ogr -t_srs EPSG:4326 OUT.geojson IN.geojson "
-               "converts it)",
-               ShownText(text)});
-}
-
-void GeoJsonReader::ReadObject(const Json& object,
-                               const std::string& pointer,
-                               const MapTags& tags,
-                               int depth) {
-  constexpr int kDeepest = 8;
-  if (!object.is_object()) return;
-  if (depth > kDeepest) {
-    errors_.Add({pointer, "must not be nested deeper than 8 levels", "more"});
-    return;
-  }
-  CheckSystem(object, pointer);
-  MapTags own = tags;
-  const std::size_t num_before = lines_.size();
-  if (object.contains("properties")) AddTagsIn(object["properties"], own);
-  for (const char* key : {"features", "geometries"}) {
-    if (!object.contains(key) || !object[key].is_array()) continue;
-    for (std::size_t i = 0; i < object[key].size(); ++i) {
-      ReadObject(object[key][i], pointer + "/" + key + "/" + std::to_string(i), own, depth + 1);
-    }
-  }
-  if (object.contains("geometry")) {
-    ReadObject(object["geometry"], pointer + "/geometry", own, depth + 1);
-  }
-  if (object.contains("coordinates")) ReadCoordinates(object, pointer, own);
-  const bool is_drawn =
-      std::any_of(lines_.begin() + static_cast<std::ptrdiff_t>(num_before), lines_.end(),
-                  [](const MapLine& line) { return !line.is_point; });
-  const std::string_view railway = TagOf(own, "railway");
-  const bool is_empty = object.contains("geometry") && object["geometry"].is_null();
-  const bool may_be_track = IsTrack(railway) || (railway.empty() && is_empty);
-  if (!object.contains("properties") || is_drawn || !may_be_track) return;
-  remarks_.push_back({RemarkKind::kLinesLeftOut, pointer, 1, "it has no line"});
-}
 
 /// Throws if a server says that there is more than it gave, as ArcGIS, WFS and OGC's APIs do.
 void CheckIsAll(const Json& root) {

@@ -180,20 +180,6 @@ void RefuseFault(const char* kind, std::int64_t id, const std::optional<Fault>& 
       {Fault{std::string(kind) + " " + std::to_string(id), fault->rule, fault->value}});
 }
 
-/// Reads a file's ways first, then the nodes that they need: most of a map are others.
-class OsmPbfReader {
- public:
-  void ReadWays(std::string_view data);
-  void ReadNodes(std::string_view data);
-  [[nodiscard]] OsmMapMaker& maker() { return maker_; }
-
- private:
-  void AddNode(std::int64_t id, const Eigen::Vector2d& place_deg, MapTags tags);
-  void ReadDense(const PbfBlock& block, std::string_view message);
-
-  OsmMapMaker maker_;
-};
-
 /// Visits the fields of a block's groups of elements.
 template <class Visit>
 void VisitGroups(std::string_view data, const Visit& visit) {
@@ -216,75 +202,83 @@ void VisitGroups(std::string_view data, const Visit& visit) {
     VisitFields(group, [&](const PbfField& field) { visit(block, field); });
   }
 }
-
-void OsmPbfReader::ReadWays(std::string_view data) {
-  VisitGroups(data, [&](const PbfBlock& block, const PbfField& field) {
-    if (field.number != kWay && field.number != kRelation) return;
-    const bool is_way = field.number == kWay;
-    PbfElement element = ElementOf(block, field.bytes, field.number);
-    if (element.is_deleted) {
-      const char* kind = is_way ? "way" : "relation";
-      RefuseFault(kind, element.id, maker_.AddDeleted(kind, element.id, element.tags));
-    } else if (is_way) {
-      element.way.id = element.id;
-      element.way.tags = std::move(element.tags);
-      RefuseFault("way", element.id, maker_.AddWay(std::move(element.way)));
-    } else {
-      maker_.AddRelation(element.id, element.tags);
-    }
-  });
-}
-
-void OsmPbfReader::AddNode(std::int64_t id, const Eigen::Vector2d& place_deg, MapTags tags) {
-  if (!maker_.Needs(id) && !IsThing(tags)) return;
-  RefuseFault("node", id, maker_.AddNode(id, place_deg, std::move(tags)));
-}
-
-void OsmPbfReader::ReadDense(const PbfBlock& block, std::string_view message) {
-  std::vector<std::int64_t> ids;
-  std::vector<std::int64_t> latitudes;
-  std::vector<std::int64_t> longitudes;
-  std::vector<std::uint64_t> words;
-  std::vector<std::uint64_t> visible;
-  VisitFields(message, [&](const PbfField& field) {
-    if (field.number == 1) ids = Sums(field.bytes);
-    if (field.number == 8) latitudes = Sums(field.bytes);
-    if (field.number == 9) longitudes = Sums(field.bytes);
-    if (field.number == 10) words = Numbers(field.bytes);
-    if (field.number != 5) return;
-    VisitFields(field.bytes, [&](const PbfField& info) {
-      if (info.number == 6) visible = Numbers(info.bytes);
+/// Reads a file's ways first, then the nodes that they need: most of a map are others.
+class OsmPbfReader {
+ public:
+  void ReadWays(std::string_view data) {
+    VisitGroups(data, [&](const PbfBlock& block, const PbfField& field) {
+      if (field.number != kWay && field.number != kRelation) return;
+      const bool is_way = field.number == kWay;
+      PbfElement element = ElementOf(block, field.bytes, field.number);
+      if (element.is_deleted) {
+        const char* kind = is_way ? "way" : "relation";
+        RefuseFault(kind, element.id, maker_.AddDeleted(kind, element.id, element.tags));
+      } else if (is_way) {
+        element.way.id = element.id;
+        element.way.tags = std::move(element.tags);
+        RefuseFault("way", element.id, maker_.AddWay(std::move(element.way)));
+      } else {
+        maker_.AddRelation(element.id, element.tags);
+      }
     });
-  });
-  if (latitudes.size() != ids.size() || longitudes.size() != ids.size()) FailDamaged();
-  std::size_t word = 0;  // Keys and values in turn; 0 ends those of a node.
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    MapTags tags;
-    for (; word < words.size() && words[word] != 0; word += 2) {
-      if (word + 1 == words.size()) FailDamaged();
-      tags.emplace(block.TextAt(words[word]), block.TextAt(words[word + 1]));
-    }
-    ++word;
-    if (i < visible.size() && visible[i] == 0) {
-      RefuseFault("node", ids[i], maker_.AddDeleted("node", ids[i], tags));
-    } else {
-      AddNode(ids[i], block.Place_deg(longitudes[i], latitudes[i]), std::move(tags));
+  }
+
+  void ReadNodes(std::string_view data) {
+    VisitGroups(data, [&](const PbfBlock& block, const PbfField& field) {
+      if (field.number == kDenseNodes) ReadDense(block, field.bytes);
+      if (field.number != kNode) return;
+      PbfElement node = ElementOf(block, field.bytes, kNode);
+      if (node.is_deleted) {
+        RefuseFault("node", node.id, maker_.AddDeleted("node", node.id, node.tags));
+      } else {
+        AddNode(node.id, block.Place_deg(node.longitude, node.latitude), std::move(node.tags));
+      }
+    });
+  }
+
+  [[nodiscard]] OsmMapMaker& maker() { return maker_; }
+
+ private:
+  void AddNode(std::int64_t id, const Eigen::Vector2d& place_deg, MapTags tags) {
+    if (!maker_.Needs(id) && !IsThing(tags)) return;
+    RefuseFault("node", id, maker_.AddNode(id, place_deg, std::move(tags)));
+  }
+
+  void ReadDense(const PbfBlock& block, std::string_view message) {
+    std::vector<std::int64_t> ids;
+    std::vector<std::int64_t> latitudes;
+    std::vector<std::int64_t> longitudes;
+    std::vector<std::uint64_t> words;
+    std::vector<std::uint64_t> visible;
+    VisitFields(message, [&](const PbfField& field) {
+      if (field.number == 1) ids = Sums(field.bytes);
+      if (field.number == 8) latitudes = Sums(field.bytes);
+      if (field.number == 9) longitudes = Sums(field.bytes);
+      if (field.number == 10) words = Numbers(field.bytes);
+      if (field.number != 5) return;
+      VisitFields(field.bytes, [&](const PbfField& info) {
+        if (info.number == 6) visible = Numbers(info.bytes);
+      });
+    });
+    if (latitudes.size() != ids.size() || longitudes.size() != ids.size()) FailDamaged();
+    std::size_t word = 0;  // Keys and values in turn; 0 ends those of a node.
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      MapTags tags;
+      for (; word < words.size() && words[word] != 0; word += 2) {
+        if (word + 1 == words.size()) FailDamaged();
+        tags.emplace(block.TextAt(words[word]), block.TextAt(words[word + 1]));
+      }
+      ++word;
+      if (i < visible.size() && visible[i] == 0) {
+        RefuseFault("node", ids[i], maker_.AddDeleted("node", ids[i], tags));
+      } else {
+        AddNode(ids[i], block.Place_deg(longitudes[i], latitudes[i]), std::move(tags));
+      }
     }
   }
-}
 
-void OsmPbfReader::ReadNodes(std::string_view data) {
-  VisitGroups(data, [&](const PbfBlock& block, const PbfField& field) {
-    if (field.number == kDenseNodes) ReadDense(block, field.bytes);
-    if (field.number != kNode) return;
-    PbfElement node = ElementOf(block, field.bytes, kNode);
-    if (node.is_deleted) {
-      RefuseFault("node", node.id, maker_.AddDeleted("node", node.id, node.tags));
-    } else {
-      AddNode(node.id, block.Place_deg(node.longitude, node.latitude), std::move(node.tags));
-    }
-  });
-}
+  OsmMapMaker maker_;
+};
 
 /// The data of a blob, decompressed.
 std::string DataOfBlob(std::string_view blob) {

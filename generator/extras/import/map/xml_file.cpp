@@ -8,8 +8,6 @@
 #include <cmath>
 #include <sstream>
 #include <type_traits>
-#include <utility>
-#include <vector>
 
 #include "core/base/input_file.h"
 #include "core/base/text.h"

@@ -1,9 +1,7 @@
 #include "generator/extras/import/network/level_tracks.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>

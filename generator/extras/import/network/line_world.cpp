@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/base/text.h"
 #include "generator/extras/import/lines/line_tags.h"

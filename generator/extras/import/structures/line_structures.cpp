@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -12,7 +11,6 @@
 #include <variant>
 #include <vector>
 
-#include "core/base/text.h"
 #include "core/rail/network/world_tracks.h"
 #include "core/rail/structures/structure_track.h"
 #include "core/scenario/descriptions.h"

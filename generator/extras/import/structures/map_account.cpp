@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <iomanip>
-#include <optional>
 #include <regex>
 #include <sstream>
 #include <string_view>

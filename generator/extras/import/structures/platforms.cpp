@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/text.h"
 #include "core/rail/line/track_course.h"
 
 namespace railcast {

@@ -5,7 +5,6 @@
 #include <utility>
 #include <variant>
 
-#include "core/base/text.h"
 #include "generator/extras/import/lines/line_places.h"
 #include "generator/extras/import/network/line_world.h"
 #include "generator/extras/import/structures/line_structures.h"

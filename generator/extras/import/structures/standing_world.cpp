@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -14,7 +13,6 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
 #include "core/rail/line/track_course.h"
 #include "core/rail/network/network_draft.h"
 #include "core/rail/structures/structures.h"
