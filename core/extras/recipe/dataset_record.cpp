@@ -1,6 +1,5 @@
 #include "core/extras/recipe/dataset_record.h"
 
-#include "core/base/text.h"
 #include "core/extras/recipe/shard.h"
 #include "core/scenario/archive.h"
 

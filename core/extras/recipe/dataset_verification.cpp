@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,7 +10,6 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/extras/recipe/dataset_record.h"
-#include "core/io/content_hash.h"
 #include "core/io/record/read_record.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/recording_extras.h"
@@ -21,7 +19,6 @@
 #include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/verify/findings.h"
-#include "core/io/write_file.h"
 
 namespace railcast {
 namespace {

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -205,8 +204,10 @@ void Describe(Archive& a, DrawGroup& s) {
   a.Ensure({"", "options", "random_weather"}, options.has_value() != families.has_value(),
            "must have either options or random_weather");
   a.Ensure({"random_weather"}, !families || !families->empty(), "must name a family");
-  if (options) s.options = *options;
   if (families) s.random_weather = *families;
+  if (!options) return;
+  s.options = *options;
+  a.Unique("options", s.options, "name", &GroupOption::name);
 }
 
 void Describe(Archive& a, PlacedObjects& s) {

@@ -58,7 +58,6 @@ class KeyCheck {
   void Run() {
     CheckOverwriting();
     CheckNumbers();
-    CheckOptionNames();
     CheckSplit();
     CheckPlans();
   }
@@ -150,19 +149,6 @@ class KeyCheck {
       } else {
         CheckNumber(objects.count, place + "/count", "must give whole numbers from 0 to 1000",
                     is_count);
-      }
-    }
-  }
-
-  void CheckOptionNames() {
-    for (std::size_t i = 0; i < recipe_.groups.size(); ++i) {
-      const std::vector<GroupOption>& options = recipe_.groups[i].options;
-      for (std::size_t j = 1; j < options.size(); ++j) {
-        for (std::size_t k = 0; k < j; ++k) {
-          if (options[k].name != options[j].name) continue;
-          Add("/groups" + IndexStep(i) + "/options" + IndexStep(j) + "/name", "must be unique",
-              ValueText(options[j].name));
-        }
       }
     }
   }

@@ -11,7 +11,6 @@
 #include "core/io/content_hash.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/io/run/sequence_files.h"
-#include "core/io/write_file.h"
 #include "core/mesh/mesh_import.h"
 #include "core/scenario/json_text.h"
 

@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -1,14 +1,8 @@
 #include "core/extras/recipe/dataset_verification.h"
 
-#include <algorithm>
-#include <map>
-#include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "core/base/error.h"
-#include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/extras/recipe/dataset_record.h"
 #include "core/io/content_hash.h"
@@ -19,7 +13,6 @@
 #include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/verify/findings.h"
-#include "core/io/write_file.h"
 
 namespace railcast {
 namespace {
