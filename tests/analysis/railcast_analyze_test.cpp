@@ -10,6 +10,7 @@
 #include "tests/core/io/damage.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/project_folder.h"
+#include "tests/support/exits_with.h"
 
 namespace railcast {
 namespace {
@@ -56,19 +57,17 @@ TEST(RailcastAnalyze, NamesAMisspeltCommandAndAnOptionWithoutAName) {
 
 TEST(RailcastAnalyze, NamesAnUnknownRowAndAMissingScenario) {
   EXPECT_EQ(Analyze("frontier a.json --out /tmp/none --rows best").status, 1);
-  const Ended missing = Analyze("frontier /no/such.json --out /tmp/none");
-  EXPECT_EQ(missing.status, 1);
-  EXPECT_THAT(missing.said, HasSubstr("/no/such.json"));
+  EXPECT_THAT(Analyze("frontier /no/such.json --out /tmp/none"),
+              ExitsWith(1, HasSubstr("/no/such.json")));
 }
 
 TEST(RailcastAnalyze, ChartsAScenario) {
   const TemporaryFolder folder;
   const auto scenario = WriteScenario(folder, "", "1.0");
   const auto out = scenario.parent_path() / "out";
-  const Ended run = Analyze("frontier " + scenario.string() + " --out " + out.string() +
-                            " --frames 1 --rows footprint,brute_force_4");
-  ASSERT_EQ(run.status, 0) << run.said;
-  EXPECT_THAT(run.said, HasSubstr("fidelity auto uses "));
+  ASSERT_THAT(Analyze("frontier " + scenario.string() + " --out " + out.string() +
+                      " --frames 1 --rows footprint,brute_force_4"),
+              ExitsWith(0, HasSubstr("fidelity auto uses ")));
   const PlainJson json = PlainJson::parse(ReadFileWhole(out / "frontier.json"));
   ASSERT_EQ(json["rows"].size(), 3U);
   // Brute force with 4 rays misses more wires than the closed forms do.
@@ -92,11 +91,10 @@ TEST(RailcastAnalyze, LeavesTheNumbersWhereGnuplotIsMissing) {
   const TemporaryFolder folder;
   const auto scenario = WriteScenario(folder, "", "2.0");
   const auto out = scenario.parent_path() / "out";
-  const Ended run = RunCommand("PATH=/nowhere " RAILCAST_ANALYZE " frontier " + scenario.string() +
-                               " --out " + out.string() + " --frames 1 --rows geometry");
-  EXPECT_EQ(run.status, 1);
-  EXPECT_THAT(run.said, testing::EndsWith("gnuplot: not found; install gnuplot-nox (the numbers "
-                                          "are written)\n"));
+  EXPECT_THAT(RunCommand("PATH=/nowhere " RAILCAST_ANALYZE " frontier " + scenario.string() +
+                         " --out " + out.string() + " --frames 1 --rows geometry"),
+              ExitsWith(1, testing::EndsWith("gnuplot: not found; install gnuplot-nox (the numbers "
+                                             "are written)\n")));
   EXPECT_TRUE(std::filesystem::exists(out / "frontier.json"));
   EXPECT_FALSE(std::filesystem::exists(out / "frontier.png"));
 }
@@ -127,22 +125,18 @@ std::string WriteCloud(const TemporaryFolder& folder) {
 TEST(InspectCommand, EndsWithStatusOneWhereTheRecordingIsNotFitForTheJob) {
   const TemporaryFolder folder;
   const std::string cloud = WriteCloud(folder);
-  const Ended fit = Analyze("inspect " + cloud + " --format text --for view");
-  EXPECT_EQ(fit.status, 0) << fit.said;
-  const Ended unfit = Analyze("inspect " + cloud + " --format text --for weather");
-  EXPECT_EQ(unfit.status, 1);
-  EXPECT_THAT(unfit.said,
-              HasSubstr("cloud.pcd: is not fit for weather: its firings are not known"));
-  const Ended unknown = Analyze("inspect " + cloud + " --format text --for dinner");
-  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(Analyze("inspect " + cloud + " --format text --for view"), ExitsWith(0));
+  EXPECT_THAT(
+      Analyze("inspect " + cloud + " --format text --for weather"),
+      ExitsWith(1, HasSubstr("cloud.pcd: is not fit for weather: its firings are not known")));
+  EXPECT_THAT(Analyze("inspect " + cloud + " --format text --for dinner"), ExitsWith(2));
 }
 
 TEST(InspectCommand, WritesAPageAndJson) {
   const TemporaryFolder folder;
   const std::string cloud = WriteCloud(folder);
   const std::filesystem::path out = std::filesystem::path(cloud).parent_path() / "out";
-  const Ended run = Analyze("inspect " + cloud + " --out " + out.string());
-  ASSERT_EQ(run.status, 0) << run.said;
+  ASSERT_THAT(Analyze("inspect " + cloud + " --out " + out.string()), ExitsWith(0));
   EXPECT_TRUE(exists(out / "report.html"));
   const nlohmann::json report = nlohmann::json::parse(ReadFileWhole(out / "inspect.json"));
   EXPECT_EQ(report.at("sections").at(0).at("key"), "jobs");
@@ -152,9 +146,7 @@ TEST(InspectCommand, WritesAPageAndJson) {
 TEST(InspectCommand, TellsTheSensorOfACloudThatAnotherDecoderMade) {
   const std::string cloud = RAILCAST_SHARED_DATA_DIR "/lidar_hesai_more/40p_decoded.pcd";
   if (!std::filesystem::exists(cloud)) GTEST_SKIP() << cloud << " is not there";
-  const Ended run = Analyze("inspect " + cloud + " --format text");
-  ASSERT_EQ(run.status, 0) << run.said;
-  EXPECT_THAT(run.said, HasSubstr("Pandar40P"));
+  ASSERT_THAT(Analyze("inspect " + cloud + " --format text"), ExitsWith(0, HasSubstr("Pandar40P")));
 }
 
 TEST(VerifyCommand, SaysALineForEveryFaultAndEndsWithOne) {
@@ -166,30 +158,27 @@ TEST(VerifyCommand, SaysALineForEveryFaultAndEndsWithOne) {
                          out.string() + " --format " + format)
                   .status,
               0);
-    const Ended whole = Analyze("verify " + out.string());
-    EXPECT_EQ(whole.status, 0) << whole.said;
-    EXPECT_THAT(whole.said, testing::StartsWith(out.string() + ": whole; read 2 frames in "));
+    EXPECT_THAT(Analyze("verify " + out.string()),
+                ExitsWith(0, testing::StartsWith(out.string() + ": whole; read 2 frames in ")));
     const auto file =
         out / (format == "kitti" ? "sequences/00/velodyne/000001.bin" : "frames/000001.pcd");
     const std::string bytes = ReadFileWhole(file);
     WriteFileWhole(file, Flipped(bytes, bytes.size() - 5));
     WriteFileWhole(out / "letter.txt", "dear");
-    const Ended damaged = Analyze("verify " + out.string());
-    EXPECT_EQ(damaged.status, 1);
-    EXPECT_THAT(damaged.said,
-                testing::MatchesRegex(file.string() +
-                                      ": must have the hash [0-9a-f]+, as frames.jsonl "
-                                      "says \\(got [0-9a-f]+\\)\n" +
-                                      out.string() +
-                                      "/letter.txt: is named neither in manifest.json nor in "
-                                      "frames.jsonl\n" +
-                                      out.string() +
-                                      ": 2 faults; read 2 frames in [0-9]+ files, "
-                                      "[0-9.]+ MB\n"));
+    EXPECT_THAT(
+        Analyze("verify " + out.string()),
+        ExitsWith(1, testing::MatchesRegex(file.string() +
+                                           ": must have the hash [0-9a-f]+, as frames.jsonl "
+                                           "says \\(got [0-9a-f]+\\)\n" +
+                                           out.string() +
+                                           "/letter.txt: is named neither in manifest.json nor in "
+                                           "frames.jsonl\n" +
+                                           out.string() +
+                                           ": 2 faults; read 2 frames in [0-9]+ files, "
+                                           "[0-9.]+ MB\n")));
     // The message that every reader of sequences gives.
-    const Ended read = Analyze("stats " + out.string() + " --format text");
-    EXPECT_EQ(read.status, 1);
-    EXPECT_THAT(read.said, testing::StartsWith(file.string() + ": must have the hash "));
+    EXPECT_THAT(Analyze("stats " + out.string() + " --format text"),
+                ExitsWith(1, testing::StartsWith(file.string() + ": must have the hash ")));
   }
 }
 
@@ -205,11 +194,10 @@ TEST(VerifyCommand, KnowsTheImagesOfACamera) {
                  "rate_hz": 5}
     })");
     const auto out = directory.path() / "out";
-    const Ended made = RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() +
-                                  " --frames 3 --out " + out.string() + " --format " + format);
-    ASSERT_EQ(made.status, 0) << made.said;
-    const Ended whole = Analyze("verify " + out.string());
-    EXPECT_EQ(whole.status, 0) << whole.said;
+    ASSERT_THAT(RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() +
+                           " --frames 3 --out " + out.string() + " --format " + format),
+                ExitsWith(0));
+    EXPECT_THAT(Analyze("verify " + out.string()), ExitsWith(0));
     // Every second frame has an image, whatever number its files have.
     EXPECT_TRUE(std::filesystem::exists(out / "camera/front/depth/000002.npy"));
     EXPECT_FALSE(std::filesystem::exists(out / "camera/front/depth/000001.npy"));
@@ -217,18 +205,16 @@ TEST(VerifyCommand, KnowsTheImagesOfACamera) {
     EXPECT_EQ(Analyze("stats " + out.string() + " --format text").status, 0);
     const auto image = out / "camera/front/label/000002.png";
     std::filesystem::remove(image);
-    const Ended damaged = Analyze("verify " + out.string());
-    EXPECT_EQ(damaged.status, 1);
-    EXPECT_THAT(damaged.said, testing::StartsWith(image.string() + ": no such file"));
+    EXPECT_THAT(Analyze("verify " + out.string()),
+                ExitsWith(1, testing::StartsWith(image.string() + ": no such file")));
   }
 }
 
 TEST(VerifyCommand, WantsADirectoryOfASequence) {
   EXPECT_EQ(Analyze("verify").status, 2);
   const TemporaryDirectory directory;
-  const Ended run = Analyze("verify " + directory.path().string());
-  EXPECT_EQ(run.status, 1);
-  EXPECT_EQ(run.said, directory.path().string() + "/run.json: no such file or directory\n");
+  EXPECT_THAT(Analyze("verify " + directory.path().string()),
+              ExitsWith(1, directory.path().string() + "/run.json: no such file or directory\n"));
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "tests/core/extras/packets/pcap/made_capture.h"
 #include "tests/core/extras/packets/velodyne/made_scan.h"
 #include "tests/core/io/damage.h"
+#include "tests/support/exits_with.h"
 #include "tests/support/sensor_file.h"
 
 namespace railcast {
@@ -56,8 +57,7 @@ TEST(StatsCommand, CountsTheOutcomesThatTheSequenceCounted) {
   const TemporaryFolder folder;
   const auto sequence = MakeSequence(folder, "");
   const auto out = sequence.parent_path() / "out";
-  const Ended run = Analyze("stats " + sequence.string() + " --out " + out.string());
-  ASSERT_EQ(run.status, 0) << run.said;
+  ASSERT_THAT(Analyze("stats " + sequence.string() + " --out " + out.string()), ExitsWith(0));
   std::map<std::string, std::uint64_t> expected;
   std::ifstream lines(sequence / "frames.jsonl");
   for (std::string line; std::getline(lines, line);) {
@@ -113,11 +113,10 @@ TEST(StatsCommand, ShowsFramesOfEverySensorAndCamera) {
   WriteFileWhole(scenario, both.dump());
   const auto run = scenario.parent_path() / "run";
   const auto out = scenario.parent_path() / "out";
-  const Ended made = RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() + " --out " +
-                                run.string() + " --frames 2");
-  ASSERT_EQ(made.status, 0) << made.said;
-  const Ended stats = Analyze("stats " + run.string() + " --out " + out.string());
-  ASSERT_EQ(stats.status, 0) << stats.said;
+  ASSERT_THAT(RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() + " --out " +
+                         run.string() + " --frames 2"),
+              ExitsWith(0));
+  ASSERT_THAT(Analyze("stats " + run.string() + " --out " + out.string()), ExitsWith(0));
   const std::string png = ReadFileWhole(out / "charts" / "sheet.png");
   const auto sheet = DecodePngRgb(png);
   EXPECT_EQ(sheet.size.width_px, 2U * 480U);
@@ -150,9 +149,9 @@ TEST(StatsCommand, ShowsWideScansInLowRows) {
   WriteFileWhole(scenario, wide.dump());
   const auto run = scenario.parent_path() / "run";
   const auto out = scenario.parent_path() / "out";
-  const Ended made = RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() + " --out " +
-                                run.string() + " --frames 1");
-  ASSERT_EQ(made.status, 0) << made.said;
+  ASSERT_THAT(RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() + " --out " +
+                         run.string() + " --frames 1"),
+              ExitsWith(0));
   ASSERT_EQ(Analyze("stats " + run.string() + " --out " + out.string()).status, 0);
   const auto sheet = DecodePngRgb(ReadFileWhole(out / "charts" / "sheet.png"));
   EXPECT_EQ(sheet.size.width_px, 480U);
@@ -164,9 +163,8 @@ TEST(StatsCommand, ShowsWideScansInLowRows) {
 TEST(StatsCommand, FailsWhereItsTextIsLost) {
   const TemporaryFolder folder;
   const auto sequence = MakeSequence(folder, "");
-  const Ended run = Analyze("stats " + sequence.string() + " --format text > /dev/full");
-  EXPECT_EQ(run.status, 1);
-  EXPECT_EQ(run.said, "stdout: not all of it could be written\n");
+  EXPECT_THAT(Analyze("stats " + sequence.string() + " --format text > /dev/full"),
+              ExitsWith(1, "stdout: not all of it could be written\n"));
 }
 
 TEST(StatsCommand, GivesTheSameFiguresAtAnyNumberOfThreads) {
@@ -183,27 +181,22 @@ TEST(StatsCommand, GivesTheSameFiguresAtAnyNumberOfThreads) {
 TEST(StatsCommand, EstimatesWhatFilesWithoutOutcomesDoNotSay) {
   const TemporaryFolder folder;
   const auto sequence = MakeSequence(folder, "--format ply --fields x,y,z,ring,column");
-  const Ended run = Analyze("stats " + sequence.string() + " --format text");
-  ASSERT_EQ(run.status, 0) << run.said;
-  EXPECT_THAT(run.said, testing::Not(HasSubstr("Dropout, exact")));
-  EXPECT_THAT(run.said, HasSubstr("Dropout, estimated"));
-  EXPECT_THAT(run.said, HasSubstr("upright"));
+  ASSERT_THAT(Analyze("stats " + sequence.string() + " --format text"),
+              ExitsWith(0, testing::AllOf(testing::Not(HasSubstr("Dropout, exact")),
+                                          HasSubstr("Dropout, estimated"), HasSubstr("upright"))));
 }
 
 TEST(StatsCommand, ReadsOneFileOfASequence) {
   const TemporaryFolder folder;
   const auto sequence = MakeSequence(folder, "");
-  const Ended run =
-      Analyze("stats " + (sequence / "frames" / "000003.pcd").string() + " --format text");
-  ASSERT_EQ(run.status, 0) << run.said;
-  EXPECT_THAT(run.said, HasSubstr("not enough (n = 1)"));
+  ASSERT_THAT(Analyze("stats " + (sequence / "frames" / "000003.pcd").string() + " --format text"),
+              ExitsWith(0, HasSubstr("not enough (n = 1)")));
 }
 
 TEST(StatsCommand, RefusesWhatItCannotReadInOneLine) {
   const TemporaryFolder folder;
-  const Ended missing = Analyze("stats /no/such/place --format text");
-  EXPECT_EQ(missing.status, 1);
-  EXPECT_EQ(missing.said, "/no/such/place: no such file or directory\n");
+  EXPECT_THAT(Analyze("stats /no/such/place --format text"),
+              ExitsWith(1, "/no/such/place: no such file or directory\n"));
   const auto broken = folder.Write("broken.pcd", "VERSION 0.7\nFIELDS x y z\n");
   const Ended damaged = Analyze("stats " + broken.string() + " --format text");
   EXPECT_EQ(damaged.status, 1);
@@ -229,10 +222,9 @@ TEST(StatsCommand, RefusesToSumUpLabelsOfTwoMeanings) {
                        other.string())
                 .status,
             0);
-  const Ended run = Analyze("stats " + sequence.string() + " " + other.string() + " --format text");
-  EXPECT_EQ(run.status, 1);
-  EXPECT_EQ(run.said, other.string() + ": must have the same labels and materials as " +
-                          sequence.string() + "\n");
+  EXPECT_THAT(Analyze("stats " + sequence.string() + " " + other.string() + " --format text"),
+              ExitsWith(1, other.string() + ": must have the same labels and materials as " +
+                               sequence.string() + "\n"));
 }
 
 // One sensor of 20 Hz without rings and one of 10 Hz with 16.
@@ -267,8 +259,7 @@ TEST(StatsCommand, SumsUpDifferentSensorsWithoutTheirRingsOrTakesOne) {
 
 PlainJson WholeStatsOf(const std::filesystem::path& source) {
   const std::filesystem::path out = source.parent_path() / "out";
-  const Ended run = Analyze("stats " + source.string() + " --out " + out.string());
-  EXPECT_EQ(run.status, 0) << run.said;
+  EXPECT_THAT(Analyze("stats " + source.string() + " --out " + out.string()), ExitsWith(0));
   return PlainJson::parse(ReadFileWhole(out / "stats.json"));
 }
 
@@ -300,11 +291,11 @@ TEST(StatsCommand, RefusesAnUnfinishedDataSetInOneLine) {
   const TemporaryFolder folder;
   const auto set = MakeSmallDataset(folder, "");
   std::filesystem::remove(set / "manifest.json");
-  const Ended run = Analyze("stats " + set.string() + " --format text");
-  EXPECT_EQ(run.status, 1);
-  EXPECT_EQ(run.said, set.string() +
-                          ": must be a finished data set (got no manifest.json); the command that "
-                          "began it, railcast-generate dataset, continues it\n");
+  EXPECT_THAT(
+      Analyze("stats " + set.string() + " --format text"),
+      ExitsWith(1, set.string() +
+                       ": must be a finished data set (got no manifest.json); the command that "
+                       "began it, railcast-generate dataset, continues it\n"));
 }
 
 TEST(StatsCommand, SumsUpAShardWithoutASectionOfItsOwn) {
@@ -325,10 +316,10 @@ TEST(StatsCommand, SumsUpAllKittiSequencesByTheNamesBesideThem) {
   const auto other = run.parent_path() / "other";
   std::filesystem::copy(run, other, std::filesystem::copy_options::recursive);
   const auto joined = run.parent_path() / "joined";
-  const Ended join =
+  ASSERT_THAT(
       RunCommand("/usr/bin/python3 " RAILCAST_SOURCE_DIR "/scripts/join_semantic_kitti.py " +
-                 joined.string() + " --train " + run.string() + " --test " + other.string());
-  ASSERT_EQ(join.status, 0) << join.said;
+                 joined.string() + " --train " + run.string() + " --test " + other.string()),
+      ExitsWith(0));
   const PlainJson both = StatsOf(joined.string());
   EXPECT_EQ(both["facts"]["Source"], joined.string() + " (KITTI data set of 2 sequences)");
   EXPECT_EQ(both["facts"]["Frames"], "22");
@@ -370,9 +361,8 @@ TEST(StatsCommand, RefusesToCountTwice) {
   const TemporaryFolder folder;
   const auto sequence = MakeSequence(folder, "");
   const std::string again = sequence.string() + "/../sequence";
-  const Ended run = Analyze("stats " + sequence.string() + " " + again + " --format text");
-  EXPECT_EQ(run.status, 1);
-  EXPECT_EQ(run.said, again + ": must be named once\n");
+  EXPECT_THAT(Analyze("stats " + sequence.string() + " " + again + " --format text"),
+              ExitsWith(1, again + ": must be named once\n"));
 }
 
 TEST(StatsCommand, ListsTheSensorsOfACaptureAndTakesTheOneThatIsChosen) {
@@ -388,10 +378,9 @@ TEST(StatsCommand, ListsTheSensorsOfACaptureAndTakesTheOneThatIsChosen) {
   }
   const auto file = WriteCapture(folder.Write("x", "").parent_path() / "a.pcap", frames);
   const std::string stats = "stats " + file.string() + " --format json";
-  const Ended all = Analyze(stats);
-  EXPECT_EQ(all.status, 1);
-  EXPECT_EQ(all.said, file.string() + ": holds 2 sensors: VLP-16 at 192.168.1.1, VLP-16 at " +
-                          "192.168.1.2; --sensor picks one\n");
+  EXPECT_THAT(Analyze(stats),
+              ExitsWith(1, file.string() + ": holds 2 sensors: VLP-16 at 192.168.1.1, VLP-16 at " +
+                               "192.168.1.2; --sensor picks one\n"));
   const Ended one = Analyze(stats + " --sensor 192.168.1.2 2>/dev/null");
   ASSERT_EQ(one.status, 0) << one.said;
   const PlainJson report = PlainJson::parse(one.said);

@@ -14,6 +14,7 @@
 #include "tests/generator/example_run.h"
 #include "tests/generator/project_folder.h"
 #include "tests/generator/run_command.h"
+#include "tests/support/exits_with.h"
 
 namespace railcast {
 namespace {
@@ -27,10 +28,9 @@ std::string CommitPattern() {
 }
 
 TEST(Provenance, NamesTheCommitInTheVersion) {
-  const Ended run = Generate("--version");
-  EXPECT_EQ(run.status, 0);
-  EXPECT_THAT(run.said,
-              testing::MatchesRegex("railcast " RAILCAST_VERSION "(" + CommitPattern() + ")\n"));
+  EXPECT_THAT(Generate("--version"),
+              ExitsWith(0, testing::MatchesRegex("railcast " RAILCAST_VERSION "(" +
+                                                 CommitPattern() + ")\n")));
 }
 
 TEST(Provenance, StandsInRunJson) {
@@ -54,12 +54,12 @@ TEST(Provenance, OfAForcedInstructionSetIsThatOneAndIsNotMixedWithAnother) {
   const auto made = Contents(out);
   std::filesystem::remove(out / "manifest.json");
   std::filesystem::remove(out / "frames/000001.pcd");
-  const Ended mixed = Generate(command);
-  EXPECT_EQ(mixed.status, 1);
-  EXPECT_EQ(mixed.said, out.string() +
-                            ": must be continued with the instruction set that it was begun with, "
-                            "sse4.2 (got " +
-                            IsaInUse("") + "); add --isa sse4.2, or choose another --out\n");
+  EXPECT_THAT(
+      Generate(command),
+      ExitsWith(1, out.string() +
+                       ": must be continued with the instruction set that it was begun with, "
+                       "sse4.2 (got " +
+                       IsaInUse("") + "); add --isa sse4.2, or choose another --out\n"));
   EXPECT_EQ(Generate(command + " --isa sse4.2").status, 0);
   EXPECT_EQ(Contents(out), made);
 }
@@ -119,11 +119,10 @@ TEST_F(ProvenanceOfABuffer, IsNotMixedWithAnother) {
   std::filesystem::remove(out_ / "manifest.json");
   std::filesystem::remove(out_ / "frames/000001.pcd");
   MoveAVertex();
-  const Ended mixed = Generate(Command());
-  EXPECT_EQ(mixed.status, 1);
-  EXPECT_EQ(mixed.said, out_.string() +
-                            ": holds a run with another content of rock.bin; choose another "
-                            "--out\n");
+  EXPECT_THAT(
+      Generate(Command()),
+      ExitsWith(1, out_.string() + ": holds a run with another content of rock.bin; choose another "
+                                   "--out\n"));
   const std::filesystem::path copies =
       std::filesystem::path(Json::parse(ReadFileWhole(out_ / "scenario.resolved.json"))
                                 .at("world")
@@ -142,8 +141,7 @@ TEST_F(ProvenanceOfABuffer, IsThereWhereverTheDirectoryIs) {
   std::filesystem::rename(out_, moved);
   std::filesystem::remove_all(directory_.path() / "project");
   const std::string scenario = (moved / "scenario.resolved.json").string();
-  const Ended trace = Generate("trace " + scenario + " --firing 0");
-  EXPECT_EQ(trace.status, 0) << trace.said;
+  EXPECT_THAT(Generate("trace " + scenario + " --firing 0"), ExitsWith(0));
   EXPECT_EQ(Generate("check " + scenario).status, 0);
 }
 

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,25 +15,27 @@
 #include "tests/generator/example_run.h"
 #include "tests/generator/project_folder.h"
 #include "tests/generator/run_command.h"
+#include "tests/support/exits_with.h"
 
 namespace railcast {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
 TEST(RailcastGenerate, ExplainsItself) {
   for (const char* command : {"", "sequence ", "check ", "world ", "trace "}) {
-    const Ended run = Generate(std::string(command) + "--help");
-    EXPECT_EQ(run.status, 0);
-    EXPECT_NE(run.said.find("Usage:"), std::string::npos);
+    EXPECT_THAT(Generate(std::string(command) + "--help"), ExitsWith(0, HasSubstr("Usage:")));
   }
 }
 
 TEST(RailcastGenerate, SaysWhichPointsAreInTheGauge) {
   const TemporaryDirectory directory;
   const std::string out = (directory.path() / "out").string();
-  const Ended run =
-      Generate("sequence " + scenarios_folder + "brake_person.json --frames 2 --out " + out +
-               " --fields x,y,z,label,track_lateral_m,track_height_m,in_gauge");
-  ASSERT_EQ(run.status, 0) << run.said;
+  ASSERT_THAT(Generate("sequence " + scenarios_folder + "brake_person.json --frames 2 --out " +
+                       out + " --fields x,y,z,label,track_lateral_m,track_height_m,in_gauge"),
+              ExitsWith(0));
   const auto frames = ReadAll(directory.path() / "out");
   ASSERT_EQ(frames.size(), 2U);
   ASSERT_EQ(frames[0].foreign.size(), 3U);
@@ -72,9 +75,8 @@ TEST(RailcastGenerate, FailsWhereItsOutputIsLost) {
     EXPECT_EQ(closed.said, "stdout: bad file descriptor\n") << command;
   }
   // The output exceeds a buffer, so that it is refused long before the end.
-  const Ended resolved = Generate("check " + scenario + " --resolved - > /dev/full");
-  EXPECT_EQ(resolved.status, 1);
-  EXPECT_EQ(resolved.said, "stdout: not all of it could be written\n");
+  EXPECT_THAT(Generate("check " + scenario + " --resolved - > /dev/full"),
+              ExitsWith(1, "stdout: not all of it could be written\n"));
 }
 
 TEST(RailcastGenerate, PrintsNothingRawThatComesFromOutside) {
@@ -84,10 +86,8 @@ TEST(RailcastGenerate, PrintsNothingRawThatComesFromOutside) {
             (directory.path() / "a\\nb\\u001b[2J.json").string() + ": no such file\n");
   const std::string scenario = scenarios_folder + "minimal.json";
   const std::string out = (directory.path() / "o\nt\x1b[2J").string();
-  const Ended run = Generate("sequence " + scenario + " --frames 1 --out '" + out + "'");
-  EXPECT_EQ(run.status, 0);
-  EXPECT_NE(run.said.find("/o\\nt\\u001b[2J"), std::string::npos) << run.said;
-  EXPECT_EQ(run.said.find('\x1b'), std::string::npos);
+  EXPECT_THAT(Generate("sequence " + scenario + " --frames 1 --out '" + out + "'"),
+              ExitsWith(0, AllOf(HasSubstr("/o\\nt\\u001b[2J"), testing::Not(HasSubstr("\x1b")))));
 }
 
 TEST(RailcastGenerate, RecordsWhatFidelityAutoChose) {
@@ -95,10 +95,9 @@ TEST(RailcastGenerate, RecordsWhatFidelityAutoChose) {
   const std::string scenario = MakeProject(directory.path() / "project").string();
   const auto manifest_of = [&](const std::string& threads) {
     const auto out = directory.path() / ("out" + threads);
-    const Ended run = Generate("sequence " + scenario + " --fidelity auto --frames 1 --threads " +
-                               threads + " --out " + out.string());
-    EXPECT_EQ(run.status, 0);
-    EXPECT_EQ(run.said.find("fidelity auto uses "), 0U) << run.said;
+    EXPECT_THAT(Generate("sequence " + scenario + " --fidelity auto --frames 1 --threads " +
+                         threads + " --out " + out.string()),
+                ExitsWith(0, StartsWith("fidelity auto uses ")));
     return ReadFileWhole(out / "manifest.json");
   };
   const std::string manifest = manifest_of("1");
@@ -113,9 +112,8 @@ TEST(RailcastGenerate, ReplaysOneFiringEffectByEffect) {
   for (const char* effect : {"\nhit ", "\nthreshold ", "\nnoise "}) {
     EXPECT_NE(run.said.find(effect), std::string::npos) << effect;
   }
-  const Ended beyond = Generate("trace " + scenarios_folder + "minimal.json --firing 28800");
-  EXPECT_EQ(beyond.status, 1);
-  EXPECT_EQ(beyond.said, "--firing: must be < 28800, the firings of a frame (got 28800)\n");
+  EXPECT_THAT(Generate("trace " + scenarios_folder + "minimal.json --firing 28800"),
+              ExitsWith(1, "--firing: must be < 28800, the firings of a frame (got 28800)\n"));
 }
 
 TEST(RailcastGenerate, ListsTheEchoesOfAFiringThatHasMoreThanOne) {
@@ -123,28 +121,23 @@ TEST(RailcastGenerate, ListsTheEchoesOfAFiringThatHasMoreThanOne) {
   WriteFileWhole(directory.path() / "fog.json",
                  R"({"version": 1, "fidelity": "surface", "file": ")" + scenarios_folder +
                      R"(minimal.json", "weather": {"visibility_m": 50}})");
-  const Ended run =
-      Generate("trace " + (directory.path() / "fog.json").string() + " --frame 3 --firing 1");
-  EXPECT_EQ(run.status, 0) << run.said;
-  EXPECT_NE(run.said.find("\necho "), std::string::npos) << run.said;
-  EXPECT_NE(run.said.find("\nfog "), std::string::npos) << run.said;
+  EXPECT_THAT(
+      Generate("trace " + (directory.path() / "fog.json").string() + " --frame 3 --firing 1"),
+      ExitsWith(0, AllOf(HasSubstr("\necho "), HasSubstr("\nfog "))));
 }
 
 TEST(RailcastGenerate, ExitsWithOneAndOneLineOnBadInput) {
   const TemporaryDirectory directory;
   const std::string out = " --out " + directory.path().string();
-  const Ended missing = Generate("sequence /no/such.json" + out);
-  EXPECT_EQ(missing.status, 1);
-  EXPECT_EQ(missing.said, "/no/such.json: no such file\n");
-  const Ended kitti =
-      Generate("sequence " + scenarios_folder + "minimal.json --format kitti --fields x,y,z" + out);
-  EXPECT_EQ(kitti.status, 1);
-  EXPECT_EQ(
-      kitti.said,
-      "--fields: KITTI's are fixed, so it must be left out with --format kitti (got x,y,z)\n");
-  const Ended world = Generate("world " + scenarios_folder + "minimal.json --out a.stl");
-  EXPECT_EQ(world.status, 1);
-  EXPECT_EQ(world.said, "--out: must end in .ply, .glb or .obj (got a.stl)\n");
+  EXPECT_THAT(Generate("sequence /no/such.json" + out),
+              ExitsWith(1, "/no/such.json: no such file\n"));
+  EXPECT_THAT(
+      Generate("sequence " + scenarios_folder + "minimal.json --format kitti --fields x,y,z" + out),
+      ExitsWith(
+          1,
+          "--fields: KITTI's are fixed, so it must be left out with --format kitti (got x,y,z)\n"));
+  EXPECT_THAT(Generate("world " + scenarios_folder + "minimal.json --out a.stl"),
+              ExitsWith(1, "--out: must end in .ply, .glb or .obj (got a.stl)\n"));
   const Ended stretch =
       Generate("world " + scenarios_folder + "minimal.json --from-s 5 --to-s 1 --out a.ply");
   EXPECT_EQ(stretch.said, "--from-s, --to-s: must be 0 <= from < to <= 1000 (got 5, 1)\n");
@@ -158,15 +151,13 @@ TEST(RailcastGenerate, WritesTheSummaryOfASequenceBesideItsDirectory) {
                                " --summary ";
   for (const std::string wrong : {"out/summary.json", "out/more/../summary.json", "out"}) {
     const std::string file = (directory.path() / wrong).string();
-    const Ended refused = Generate(sequence + file);
-    EXPECT_EQ(refused.status, 1);
-    EXPECT_EQ(refused.said,
-              "--summary: must not be in the directory of --out (got " + file + ")\n");
+    EXPECT_THAT(
+        Generate(sequence + file),
+        ExitsWith(1, "--summary: must not be in the directory of --out (got " + file + ")\n"));
   }
   EXPECT_FALSE(std::filesystem::exists(out));
   const std::filesystem::path file = directory.path() / "out.json";
-  const Ended ended = Generate(sequence + file.string());
-  EXPECT_EQ(ended.status, 0) << ended.said;
+  EXPECT_THAT(Generate(sequence + file.string()), ExitsWith(0));
   const std::string begin = R"({"command":"sequence","sensors":[{"name":"Vir2Rail","directory":")" +
                             out.string() +
                             R"(","frames":2,"frames_done":2,"frames_made":2,"is_complete":true,)";
@@ -178,9 +169,8 @@ TEST(RailcastGenerate, RefusesAMeshItCouldNotWriteBeforeItIsBuilt) {
   EXPECT_EQ(half.said,
             "--from-s, --to-s: must be given both or not at all (got only --from-s 5)\n");
   // No chunks are mentioned, because none was built.
-  const Ended nowhere = Generate("world " + scenarios_folder + "minimal.json --out /no/such/a.ply");
-  EXPECT_EQ(nowhere.status, 1);
-  EXPECT_EQ(nowhere.said, "/no/such/a.ply: no such file or directory\n");
+  EXPECT_THAT(Generate("world " + scenarios_folder + "minimal.json --out /no/such/a.ply"),
+              ExitsWith(1, "/no/such/a.ply: no such file or directory\n"));
   const TemporaryDirectory directory;
   std::filesystem::create_directory(directory.path() / "a.ply");
   const std::string folder = (directory.path() / "a.ply").string();
@@ -193,9 +183,8 @@ TEST(RailcastGenerate, GivesTheSameBytesForAnyNumberOfThreads) {
   const std::string command = "sequence " + scenarios_folder + "minimal.json --frames 2 --out " +
                               directory.path().string() + "/";
   for (const char* threads : {"1", "2", "8"}) {
-    const Ended run = Generate(command + threads + " --threads " + threads);
-    EXPECT_EQ(run.status, 0) << run.said;
-    EXPECT_NE(run.said.find("2 of 2 frames in "), std::string::npos);
+    EXPECT_THAT(Generate(command + threads + " --threads " + threads),
+                ExitsWith(0, HasSubstr("2 of 2 frames in ")));
   }
   const auto one = Contents(directory.path() / "1");
   EXPECT_EQ(Contents(directory.path() / "2"), one);
@@ -209,9 +198,9 @@ TEST(RailcastGenerate, GivesTheSameManifestWhereverTheProjectLies) {
   const TemporaryDirectory directory;
   for (const char* place : {"here", "there"}) {
     const std::string scenario = MakeProject(directory.path() / place / "project").string();
-    const Ended run = Generate("sequence " + scenario + " --frames 2 --out " +
-                               (directory.path() / place / "out").string());
-    EXPECT_EQ(run.status, 0) << run.said;
+    EXPECT_THAT(Generate("sequence " + scenario + " --frames 2 --out " +
+                         (directory.path() / place / "out").string()),
+                ExitsWith(0));
   }
   EXPECT_EQ(Contents(directory.path() / "here/out"), Contents(directory.path() / "there/out"));
 }
@@ -233,8 +222,8 @@ TEST(RailcastGenerate, MakesADirectoryThatCanBeMadeAndTracedWithoutItsProject) {
   // Its own resolved scenario will do, too: an interrupted run can be continued from there.
   std::filesystem::remove(moved / "manifest.json");
   std::filesystem::remove(moved / "frames/000001.pcd");
-  const Ended resumed = Generate("sequence " + resolved + " --frames 2 --out " + moved.string());
-  EXPECT_EQ(resumed.status, 0) << resumed.said;
+  EXPECT_THAT(Generate("sequence " + resolved + " --frames 2 --out " + moved.string()),
+              ExitsWith(0));
   EXPECT_EQ(Contents(moved), made);
 }
 
@@ -247,11 +236,10 @@ TEST(RailcastGenerate, ResumesAMovedProjectButNotOneWithAChangedMesh) {
   std::filesystem::rename(directory.path() / "old", directory.path() / "new");
   const std::string moved = "sequence " + (directory.path() / "new/scenario.json").string() + out;
   WriteFileWhole(directory.path() / "new/rock.obj", std::string(kPyramidObj) + "f 1 2 3\n");
-  const Ended changed = Generate(moved);
-  EXPECT_EQ(changed.status, 1);
-  EXPECT_EQ(changed.said, (directory.path() / "out").string() +
-                              ": holds a run with another content of rock.obj; choose another "
-                              "--out\n");
+  EXPECT_THAT(Generate(moved),
+              ExitsWith(1, (directory.path() / "out").string() +
+                               ": holds a run with another content of rock.obj; choose another "
+                               "--out\n"));
   WriteFileWhole(directory.path() / "new/rock.obj", kPyramidObj);
   EXPECT_EQ(Generate(moved).status, 0);
 }
@@ -266,11 +254,10 @@ TEST(RailcastGenerate, RefusesToLeaveTheTrackBeforeTheFirstFrame) {
                    "[{\"time_s\": 0, \"speed_mps\": 20}]}}");
   WriteFileWhole(file, scenario);
   const auto out = directory.path() / "out";
-  const Ended run = Generate("sequence " + file + " --out " + out.string());
-  EXPECT_EQ(run.status, 1);
-  EXPECT_EQ(run.said, file +
-                          ": /vehicle/motion: leaves track \"main\", from 0 to 1000 m, at frame "
-                          "6 (0.6 s)\n");
+  EXPECT_THAT(
+      Generate("sequence " + file + " --out " + out.string()),
+      ExitsWith(1, file + ": /vehicle/motion: leaves track \"main\", from 0 to 1000 m, at frame "
+                          "6 (0.6 s)\n"));
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
@@ -285,13 +272,12 @@ TEST(RailcastGenerate, NamesTheFileWhoseOutputIsOutOfReachAlsoOnTheWay) {
                         [{"time_s": 0, "speed_mps": 50}]}})");
   WriteFileWhole(file, scenario);
   EXPECT_EQ(Generate("check " + file).status, 0);
-  const Ended run = Generate("sequence " + file + " --out " + (directory.path() / "out").string());
-  EXPECT_EQ(run.status, 1);
-  EXPECT_NE(run.said.find(file +
-                          ": /output/origin_m: must lie within 8192 m of the sensor, since float32 "
-                          "loses millimetres beyond (got [-7785, 0, 0], sensor at [410, 0, 2])\n"),
-            std::string::npos)
-      << run.said;
+  EXPECT_THAT(
+      Generate("sequence " + file + " --out " + (directory.path() / "out").string()),
+      ExitsWith(
+          1, HasSubstr(file +
+                       ": /output/origin_m: must lie within 8192 m of the sensor, since float32 "
+                       "loses millimetres beyond (got [-7785, 0, 0], sensor at [410, 0, 2])\n")));
 }
 
 // Writes a scenario whose vehicle reaches the near side of a crate, 449.5 m, between frames 49
@@ -310,14 +296,11 @@ void MakeRunIntoACrate(const std::filesystem::path& file, const std::string& key
 }
 
 TEST(RailcastGenerate, SaysWhenTheBuffersOfTheCouplingScenarioTouch) {
-  const Ended check = Generate("check " + scenarios_folder + "coupling.json");
-  EXPECT_EQ(check.status, 0);
-  EXPECT_TRUE(check.said.ends_with(
-      "contacts  in frames 0 to 5999:\n"
-      "          \"wagon\" touches \"coupled_wagon\" in frames 0 to 5999: 0.000 m apart at frame "
-      "0\n"
-      "          \"wagon\" touches \"ego\" in frames 64 to 5999: 0.000 m apart at frame 67\n"))
-      << check.said;
+  EXPECT_THAT(Generate("check " + scenarios_folder + "coupling.json"),
+              ExitsWith(0, testing::EndsWith(R"(contacts  in frames 0 to 5999:
+          "wagon" touches "coupled_wagon" in frames 0 to 5999: 0.000 m apart at frame 0
+          "wagon" touches "ego" in frames 64 to 5999: 0.000 m apart at frame 67
+)")));
 }
 
 TEST(RailcastGenerate, RefusesToRunTheVehicleIntoAnObject) {
@@ -328,13 +311,10 @@ TEST(RailcastGenerate, RefusesToRunTheVehicleIntoAnObject) {
       file +
       ": /vehicle: must not be inside an object unless may_overlap is true (got 0.50 m inside "
       "\"crate\" at frame 50 (5 s))\n";
-  const Ended check = Generate("check " + file);
-  EXPECT_EQ(check.status, 1);
-  EXPECT_EQ(check.said, fault);
+  EXPECT_THAT(Generate("check " + file), ExitsWith(1, fault));
   const std::filesystem::path out = directory.path() / "out";
-  const Ended run = Generate("sequence " + file + " --frames 51 --out " + out.string());
-  EXPECT_EQ(run.status, 1);
-  EXPECT_EQ(run.said, fault);
+  EXPECT_THAT(Generate("sequence " + file + " --frames 51 --out " + out.string()),
+              ExitsWith(1, fault));
   EXPECT_FALSE(std::filesystem::exists(out));
   EXPECT_EQ(
       Generate("sequence " + file + " --start-frame 48 --frames 2 --out " + out.string()).status,

@@ -13,6 +13,7 @@
 #include "tests/generator/example_run.h"
 #include "tests/generator/project_folder.h"
 #include "tests/generator/run_command.h"
+#include "tests/support/exits_with.h"
 
 namespace railcast {
 namespace {
@@ -50,15 +51,14 @@ class Replay : public testing::Test {
 
 TEST_F(Replay, OfAnEmptyLogIsTheScenariosOwnSequence) {
   EXPECT_EQ(Sequence("plain", "").status, 0);
-  const Ended replay = Sequence("replay", "--commands " + WriteLog("empty.jsonl", {}).string());
-  EXPECT_EQ(replay.status, 0) << replay.said;
+  EXPECT_THAT(Sequence("replay", "--commands " + WriteLog("empty.jsonl", {}).string()),
+              ExitsWith(0));
   EXPECT_EQ(Contents(Out("replay")), Contents(Out("plain")));
 }
 
 TEST_F(Replay, DescribesAPlacedObjectWhileItIsThere) {
   const fs::path log = WriteLog("log.jsonl", PersonForAWhile());
-  const Ended run = Sequence("out", "--commands " + log.string());
-  ASSERT_EQ(run.status, 0) << run.said;
+  ASSERT_THAT(Sequence("out", "--commands " + log.string()), ExitsWith(0));
   const auto contents = Contents(Out("out"));
   std::istringstream lines(contents.at("objects.jsonl"));
   std::string line;
@@ -96,12 +96,11 @@ TEST_F(Replay, BelongsToItsCommands) {
 
 TEST_F(Replay, RefusesTheLogOfAnotherScenario) {
   const fs::path log = WriteLog("log.jsonl", PersonForAWhile());
-  const Ended run = Sequence("out", "--seed 9 --commands " + log.string());
-  EXPECT_EQ(run.status, 1);
-  EXPECT_EQ(run.said.find(log.string() +
-                          ": must be the log of this scenario with this --seed and --fidelity, "),
-            0U)
-      << run.said;
+  EXPECT_THAT(
+      Sequence("out", "--seed 9 --commands " + log.string()),
+      ExitsWith(1, testing::StartsWith(
+                       log.string() +
+                       ": must be the log of this scenario with this --seed and --fidelity, ")));
   EXPECT_FALSE(fs::exists(Out("out")));
 }
 

@@ -21,6 +21,7 @@
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/example_run.h"
 #include "tests/generator/run_command.h"
+#include "tests/support/exits_with.h"
 
 /// A point as PCL's own reader fills it.
 struct MergedPoint {
@@ -82,8 +83,7 @@ class MergedClouds : public testing::Test {
 };
 
 TEST_F(MergedClouds, HoldThePointsOfEverySensorInTheVehiclesAxes) {
-  const Ended made = Make("run", "--frames 3 --merged --fields x,y,z,time_ns");
-  ASSERT_EQ(made.status, 0) << made.said;
+  ASSERT_THAT(Make("run", "--frames 3 --merged --fields x,y,z,time_ns"), ExitsWith(0));
   const Points merged = Read(Out("run/merged/frames/000002.pcd"));
   // The vehicle is turned by a quarter against the sensor at the front.
   const Points front = OfSensor(merged, 0);
@@ -113,8 +113,7 @@ TEST_F(MergedClouds, HoldThePointsOfEverySensorInTheVehiclesAxes) {
 }
 
 TEST_F(MergedClouds, AreARecordingWithTheirNumbersPosesAndBoxes) {
-  const Ended made = Make("run", "--frames 2 --start-frame 6 --stride 4 --merged");
-  ASSERT_EQ(made.status, 0) << made.said;
+  ASSERT_THAT(Make("run", "--frames 2 --start-frame 6 --stride 4 --merged"), ExitsWith(0));
   const auto merged = OpenRecording(Out("run/merged/"));
   const auto front = OpenRecording(Out("run/front"));
   EXPECT_EQ(merged->info().kind, "merged clouds");
@@ -170,8 +169,7 @@ TEST_F(MergedClouds, AreARecordingWithoutTheirSensorsToo) {
 }
 
 TEST_F(MergedClouds, CountTimesFromTheFirstSensorsStamp) {
-  const Ended made = Make("run", "--frames 2 --merged --fields x,y,z,time_ns", 0.06);
-  ASSERT_EQ(made.status, 0) << made.said;
+  ASSERT_THAT(Make("run", "--frames 2 --merged --fields x,y,z,time_ns", 0.06), ExitsWith(0));
   EXPECT_TRUE(ReadFileWhole(Out("run/roof/poses.csv")).find("\n60000000,") != std::string::npos);
   EXPECT_EQ(OfSensor(Read(Out("run/merged/frames/000000.pcd")), 1).size(), 0U);
   // Frame 1 of the front begins after 50 ms, that of the roof 10 ms later and lasts 0.1 s.
