@@ -12,6 +12,7 @@
 #include "tests/generator/extras/dataset/dataset_in_format.h"
 #include "tests/generator/extras/dataset/dataset_project.h"
 #include "tests/generator/run_command.h"
+#include "tests/support/exits_with.h"
 
 namespace railcast {
 namespace {
@@ -39,27 +40,25 @@ TEST_F(DatasetCommand, ContinuesAfterItWasKilledWithTheSameBytes) {
     const std::string program = std::string(RAILCAST_GENERATE) + " " + Command("killed");
     (void)RunCommand("timeout -s KILL " + std::string(killed_after_s) + " " + program);
   }
-  const Ended run = Generate(Command("killed"));
-  EXPECT_EQ(run.status, 0) << run.said;
+  EXPECT_THAT(Generate(Command("killed")), ExitsWith(0));
   EXPECT_EQ(FilesOfDataset(Path("killed")), FilesOfDataset(Path("whole")));
 }
 
 TEST_F(DatasetCommand, SaysWhatItMadeAndHowToMerge) {
-  const Ended first = Generate(Command("1", "--shard 1/2"));
-  EXPECT_EQ(first.status, 0);
-  EXPECT_THAT(first.said, HasSubstr("3 of 3 scenarios in " + Path("1").string()));
-  EXPECT_THAT(first.said, HasSubstr("shard 1/2 is complete; railcast-generate merge makes one"));
+  EXPECT_THAT(
+      Generate(Command("1", "--shard 1/2")),
+      ExitsWith(0, testing::AllOf(
+                       HasSubstr("3 of 3 scenarios in " + Path("1").string()),
+                       HasSubstr("shard 1/2 is complete; railcast-generate merge makes one"))));
   EXPECT_EQ(Generate(Command("2", "--shard 2/2")).status, 0);
-  const Ended merged = Generate("merge " + Path("1").string() + " " + Path("2").string() +
-                                " --out " + Path("merged").string());
-  EXPECT_EQ(merged.status, 0);
-  EXPECT_EQ(merged.said, "6 scenarios of 2 shards in " + Path("merged").string() + "\n");
+  EXPECT_THAT(Generate("merge " + Path("1").string() + " " + Path("2").string() + " --out " +
+                       Path("merged").string()),
+              ExitsWith(0, "6 scenarios of 2 shards in " + Path("merged").string() + "\n"));
   EXPECT_THAT(Generate(Command("merged")).said, HasSubstr("already complete: nothing to do\n"));
 }
 
 TEST_F(DatasetCommand, WritesTheScenariosAlone) {
-  const Ended run = Generate(Command("scenarios", "--scenarios-only"));
-  EXPECT_EQ(run.status, 0) << run.said;
+  EXPECT_THAT(Generate(Command("scenarios", "--scenarios-only")), ExitsWith(0));
   for (int i = 0; i < 6; ++i) {
     const fs::path file =
         Path("scenarios/sequences/000/00000" + std::to_string(i)) / "scenario.resolved.json";
@@ -105,11 +104,10 @@ TEST_F(DatasetCommand, RefusesAFormatThatCannotHoldTheOutput) {
   nlohmann::json recipe = ProjectRecipe();
   recipe["set"]["/output"] = {{"frame", "vehicle"}};
   (void)WriteProjectRecipe(directory_.path() / "project", recipe);
-  const Ended run = Generate(Command("out", "--format kitti"));
-  EXPECT_EQ(run.status, 1);
-  EXPECT_EQ(run.said, recipe_.string() +
-                          ": scenario 0: /output: must be right-handed sensor coordinates for "
-                          "--format kitti (got right-handed vehicle)\n");
+  EXPECT_THAT(Generate(Command("out", "--format kitti")),
+              ExitsWith(1, recipe_.string() +
+                               ": scenario 0: /output: must be right-handed sensor coordinates for "
+                               "--format kitti (got right-handed vehicle)\n"));
 }
 
 TEST_F(DatasetCommand, RefusesToCertifyTheReferenceAloneIfItIsAskedTo) {
@@ -117,10 +115,9 @@ TEST_F(DatasetCommand, RefusesToCertifyTheReferenceAloneIfItIsAskedTo) {
   recipe["num_scenarios"] = 1;
   recipe["set"]["/fidelity"] = "reference";
   (void)WriteProjectRecipe(directory_.path() / "project", recipe);
-  const Ended run = Generate(Command("out", "--certify 1%"));
-  EXPECT_EQ(run.status, 1);
-  EXPECT_EQ(run.said, "--certify: must be left out: all scenarios of " + recipe_.string() +
-                          " are of fidelity reference, which it compares with\n");
+  EXPECT_THAT(Generate(Command("out", "--certify 1%")),
+              ExitsWith(1, "--certify: must be left out: all scenarios of " + recipe_.string() +
+                               " are of fidelity reference, which it compares with\n"));
   EXPECT_FALSE(fs::exists(Path("out")));
   EXPECT_EQ(Generate(Command("out")).status, 0);
 }

@@ -11,11 +11,14 @@
 #include "core/io/write_file.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/run_command.h"
+#include "tests/support/exits_with.h"
 
 namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
 constexpr const char* kMap = R"({"type": "FeatureCollection", "features": [
@@ -23,22 +26,41 @@ constexpr const char* kMap = R"({"type": "FeatureCollection", "features": [
    "geometry": {"type": "LineString", "coordinates":
     [[15.60, 48.20], [15.61, 48.20], [15.62, 48.2003], [15.63, 48.201]]}}]})";
 
-TEST(Import, WritesAnAlignmentAndTheReports) {
-  const TemporaryDirectory directory;
-  const fs::path map = directory.path() / "map.geojson";
-  const fs::path out = directory.path() / "out";
-  WriteFileWhole(map, kMap);
-  const Ended run = Generate("import " + map.string() + " --out " + out.string());
-  ASSERT_EQ(run.status, 0) << run.said;
-  EXPECT_THAT(run.said, HasSubstr("projection: +proj=tmerc"));
-  EXPECT_THAT(run.said, HasSubstr("| hill-line | 2.2"));
-  EXPECT_THAT(ReadFileWhole(out / "hill-line.alignment.json"), HasSubstr(R"("type": "elements")"));
-  EXPECT_THAT(ReadFileWhole(out / "lines.csv"), HasSubstr("hill-line,22"));
-  EXPECT_THAT(ReadFileWhole(out / "contradictions.csv"), HasSubstr("line,s_m,offset_m"));
-  EXPECT_THAT(
-      ReadFileWhole(out / "account.csv"),
-      ::testing::ContainsRegex("\nrunning track,\"/features/0/geometry\",m,(2[0-9]+\\.[0-9]+),"));
-  EXPECT_THAT(run.said, HasSubstr("| running track | 2.23 km | 2.23 km | 100 |"));
+/// Imports of one map into one folder.
+class Import : public ::testing::Test {
+ protected:
+  /// Imports `map`, which is written before.
+  [[nodiscard]] Ended Run(const std::string& map, const std::string& options = "") const {
+    WriteFileWhole(map_, map);
+    return Generate("import " + map_.string() + " --out " + out_.string() + options);
+  }
+
+  /// The same with heights of an elevation model in geographic coordinates.
+  [[nodiscard]] Ended RunWithHeights(const std::string& map, const std::string& grid) const {
+    WriteFileWhole(directory_.path() / "dem.asc", grid);
+    return Run(
+        map, " --heights " + (directory_.path() / "dem.asc").string() + " --heights-crs EPSG:4326");
+  }
+
+  [[nodiscard]] std::string Text(const std::string& file) const {
+    return ReadFileWhole(out_ / file);
+  }
+
+  TemporaryDirectory directory_;
+  fs::path map_ = directory_.path() / "map.geojson";
+  fs::path out_ = directory_.path() / "out";
+};
+
+TEST_F(Import, WritesAnAlignmentAndTheReports) {
+  ASSERT_THAT(
+      Run(kMap),
+      ExitsWith(0, AllOf(HasSubstr("projection: +proj=tmerc"), HasSubstr("| hill-line | 2.2"),
+                         HasSubstr("| running track | 2.23 km | 2.23 km | 100 |"))));
+  EXPECT_THAT(Text("hill-line.alignment.json"), HasSubstr(R"("type": "elements")"));
+  EXPECT_THAT(Text("lines.csv"), HasSubstr("hill-line,22"));
+  EXPECT_THAT(Text("contradictions.csv"), HasSubstr("line,s_m,offset_m"));
+  EXPECT_THAT(Text("account.csv"),
+              ContainsRegex("\nrunning track,\"/features/0/geometry\",m,(2[0-9]+\\.[0-9]+),"));
 }
 
 /// A tram's straights of 600 m about a street corner of 5 m radius, with a point every 10 m.
@@ -59,20 +81,14 @@ std::string StreetCornerMap() {
          points + "]}}";
 }
 
-TEST(Import, CutsALineAtAnArcThatIsTooSharpForVehicles) {
-  const TemporaryDirectory directory;
-  const fs::path map = directory.path() / "map.geojson";
-  const fs::path out = directory.path() / "out";
-  WriteFileWhole(map, StreetCornerMap());
-  const Ended run = Generate("import " + map.string() + " --min-length 400 --out " + out.string());
-  ASSERT_EQ(run.status, 0) << run.said;
-  EXPECT_THAT(run.said, HasSubstr("Wrote 2 lines"));
-  EXPECT_THAT(run.said, ::testing::ContainsRegex("left out line tram of [0-9]+ m: arc of 10 m "
-                                                 "radius at [0-9]+ m: vehicles need 10.4 m"));
+TEST_F(Import, CutsALineAtAnArcThatIsTooSharpForVehicles) {
+  ASSERT_THAT(Run(StreetCornerMap(), " --min-length 400"),
+              ExitsWith(0, AllOf(HasSubstr("Wrote 2 lines"),
+                                 ContainsRegex("left out line tram of [0-9]+ m: arc of 10 m "
+                                               "radius at [0-9]+ m: vehicles need 10.4 m"))));
   double length_m = 0.0;
   for (const char* part : {"tram-part-1", "tram-part-2"}) {
-    const auto json =
-        nlohmann::json::parse(ReadFileWhole(out / (std::string(part) + ".alignment.json")));
+    const auto json = nlohmann::json::parse(Text(std::string(part) + ".alignment.json"));
     for (const auto& element : json["course"]["elements"]) {
       length_m += element["length_m"].get<double>();
       if (element.contains("radius_m")) {
@@ -83,10 +99,8 @@ TEST(Import, CutsALineAtAnArcThatIsTooSharpForVehicles) {
   EXPECT_GT(length_m, 1200.0 - 60.0);
 }
 
-TEST(Import, GivesTheSameBytesAgain) {
-  const TemporaryDirectory directory;
-  const fs::path map = directory.path() / "map.geojson";
-  WriteFileWhole(map, R"({"type": "FeatureCollection", "features": [
+TEST_F(Import, GivesTheSameBytesAgain) {
+  const std::string map = R"({"type": "FeatureCollection", "features": [
   {"type": "Feature", "properties": {"railway": "rail", "name": "Hill Line", "maxspeed": "60"},
    "geometry": {"type": "LineString", "coordinates":
     [[15.60, 48.20], [15.61, 48.20], [15.62, 48.2003], [15.63, 48.201]]}},
@@ -94,12 +108,12 @@ TEST(Import, GivesTheSameBytesAgain) {
    "geometry": {"type": "LineString", "coordinates":
     [[15.60, 48.25], [15.61, 48.251], [15.62, 48.2503], [15.64, 48.251]]}},
   {"type": "Feature", "properties": {"railway": "rail", "name": "Marsh Line"},
-   "geometry": {"type": "LineString", "coordinates": [[15.60, 48.15], [15.62, 48.15]]}}]})");
+   "geometry": {"type": "LineString", "coordinates": [[15.60, 48.15], [15.62, 48.15]]}}]})";
   std::map<std::string, std::string> texts[2];
   for (const int run : {0, 1}) {
-    const fs::path out = directory.path() / std::to_string(run);
-    ASSERT_EQ(Generate("import " + map.string() + " --out " + out.string()).status, 0);
-    for (const fs::directory_entry& file : fs::directory_iterator(out)) {
+    out_ = directory_.path() / std::to_string(run);
+    ASSERT_THAT(Run(map), ExitsWith(0));
+    for (const fs::directory_entry& file : fs::directory_iterator(out_)) {
       texts[run][file.path().filename()] = ReadFileWhole(file.path());
     }
   }
@@ -120,146 +134,106 @@ std::string SlopeGrid(double rise_m) {
   return text;
 }
 
-TEST(Import, TakesHeightsFromAnElevationModel) {
-  const TemporaryDirectory directory;
-  const fs::path map = directory.path() / "map.geojson";
-  const fs::path grid = directory.path() / "dem.asc";
-  const fs::path out = directory.path() / "out";
-  WriteFileWhole(map, kMap);
-  WriteFileWhole(grid, SlopeGrid(1.0));
-  const Ended run = Generate("import " + map.string() + " --out " + out.string() + " --heights " +
-                             grid.string() + " --heights-crs EPSG:4326");
-  ASSERT_EQ(run.status, 0) << run.said;
-  const auto alignment = nlohmann::json::parse(ReadFileWhole(out / "hill-line.alignment.json"));
+TEST_F(Import, TakesHeightsFromAnElevationModel) {
+  ASSERT_THAT(RunWithHeights(kMap, SlopeGrid(1.0)), ExitsWith(0));
+  const auto alignment = nlohmann::json::parse(Text("hill-line.alignment.json"));
   // The middle of column 19.5 is 15.60 degrees. A degree is cos(48.2) * 111.3 km, and the line goes
   // a little to the north, too.
   EXPECT_NEAR(alignment["origin_m"][2], 319.5, 0.1);
   ASSERT_THAT(alignment["gradients_permil"], ::testing::SizeIs(1));
   EXPECT_NEAR(alignment["gradients_permil"][0]["value"], 1e3 / 74.3, 0.1);
-  EXPECT_THAT(ReadFileWhole(out / "heights.csv"), HasSubstr("hill-line,"));
-  EXPECT_THAT(ReadFileWhole(out / "hill-line.elevation.asc"), HasSubstr("cellsize 112\n"));
+  EXPECT_THAT(Text("heights.csv"), HasSubstr("hill-line,"));
+  EXPECT_THAT(Text("hill-line.elevation.asc"), HasSubstr("cellsize 112\n"));
 }
 
-/// A run on kMap and a grid of SlopeGrid(1.0) of which a part of each row was replaced.
-class ImportWithHeights : public ::testing::Test {
- protected:
-  Ended Run(const std::string& from, const std::string& by, const std::string& map = kMap) {
-    std::string grid = SlopeGrid(1.0);
-    for (std::size_t at = 0; (at = grid.find(from, at)) != std::string::npos; at += by.size()) {
-      grid.replace(at, from.size(), by);
-    }
-    WriteFileWhole(directory_.path() / "map.geojson", map);
-    WriteFileWhole(directory_.path() / "dem.asc", grid);
-    return Generate("import " + (directory_.path() / "map.geojson").string() + " --out " +
-                    out_.string() + " --heights " + (directory_.path() / "dem.asc").string() +
-                    " --heights-crs EPSG:4326");
+/// The grid of SlopeGrid(1.0) of which a part of each row was replaced.
+std::string GridWith(const std::string& from, const std::string& by) {
+  std::string grid = SlopeGrid(1.0);
+  for (std::size_t at = 0; (at = grid.find(from, at)) != std::string::npos; at += by.size()) {
+    grid.replace(at, from.size(), by);
   }
+  return grid;
+}
 
-  TemporaryDirectory directory_;
-  fs::path out_ = directory_.path() / "out";
-};
+using ImportWithHeights = Import;
 
 TEST_F(ImportWithHeights, TellsCellsThatCannotBeHeights) {
   // 400 m west of the line, in the rows of up to 500 m beside it.
-  const Ended run = Run(" 314 315 ", " -32768 315 ");
-  ASSERT_EQ(run.status, 0) << run.said;
-  EXPECT_THAT(run.said, ::testing::ContainsRegex("remark heights-void: 1[0-9] cells of an "
-                                                 "elevation model with heights that cannot be"));
-  EXPECT_THAT(ReadFileWhole(out_ / "left_out.csv"),
-              HasSubstr("they count as without one: -32768 m\""));
+  ASSERT_THAT(RunWithHeights(kMap, GridWith(" 314 315 ", " -32768 315 ")),
+              ExitsWith(0, ContainsRegex("remark heights-void: 1[0-9] cells of an "
+                                         "elevation model with heights that cannot be")));
+  EXPECT_THAT(Text("left_out.csv"), HasSubstr("they count as without one: -32768 m\""));
 }
 
 TEST_F(ImportWithHeights, EndsWithAnErrorIfNoLineCanStand) {
   // Over the middle of the line, in each row.
-  const Ended run = Run(" 335 336 337 ", " -32768 -32768 -32768 ");
-  EXPECT_EQ(run.status, 1);
-  EXPECT_THAT(run.said, HasSubstr("Wrote 0 lines to "));
-  EXPECT_THAT(run.said, HasSubstr("map.geojson: must have a line that can stand (got 1 left out, "
-                                  "with the reasons in " +
-                                  (out_ / "left_out.csv").string() + ")"));
+  EXPECT_THAT(RunWithHeights(kMap, GridWith(" 335 336 337 ", " -32768 -32768 -32768 ")),
+              ExitsWith(1, AllOf(HasSubstr("Wrote 0 lines to "),
+                                 HasSubstr("map.geojson: must have a line that can stand (got 1 "
+                                           "left out, with the reasons in " +
+                                           (out_ / "left_out.csv").string() + ")"))));
 }
 
 TEST_F(ImportWithHeights, LeavesOutALineWhoseHeightsNoRailwayHas) {
   // A step of 300 m.
-  const Ended run = Run(" 335 336 337 ", " 0 0 0 ");
-  EXPECT_EQ(run.status, 1);
-  EXPECT_THAT(run.said, HasSubstr("left out line hill-line of 2"));
-  EXPECT_THAT(run.said, HasSubstr("its heights must lie within 20 m of gradients that a railway "
-                                  "can have (got "));
+  EXPECT_THAT(RunWithHeights(kMap, GridWith(" 335 336 337 ", " 0 0 0 ")),
+              ExitsWith(1, AllOf(HasSubstr("left out line hill-line of 2"),
+                                 HasSubstr("its heights must lie within 20 m of gradients that a "
+                                           "railway can have (got "))));
 }
 
 TEST_F(ImportWithHeights, TellsHeightsThatAreFarFromTheGradients) {
-  const Ended run = Run(" 335 336 337 ", " 335 350 337 ");
-  ASSERT_EQ(run.status, 0) << run.said;
-  EXPECT_THAT(run.said, HasSubstr("remark heights-far: "));
-  EXPECT_THAT(ReadFileWhole(out_ / "left_out.csv"), HasSubstr("line hill-line at "));
+  ASSERT_THAT(RunWithHeights(kMap, GridWith(" 335 336 337 ", " 335 350 337 ")),
+              ExitsWith(0, HasSubstr("remark heights-far: ")));
+  EXPECT_THAT(Text("left_out.csv"), HasSubstr("line hill-line at "));
 }
 
 /// A point 30 m beside a straight of 3 km that has one every 50 m.
-TEST(Import, TellsPointsOfTheMapThatAreFarFromTheLine) {
-  const TemporaryDirectory directory;
-  const fs::path map = directory.path() / "map.geojson";
+TEST_F(Import, TellsPointsOfTheMapThatAreFarFromTheLine) {
   std::string points;
   for (int i = 0; i <= 60; ++i) {
     points += (i == 0 ? "[" : ", [") + std::to_string(15.6 + i * 50.0 / 74e3) + ", " +
               (i == 20 ? "48.20027" : "48.2") + "]";
   }
-  WriteFileWhole(map, R"({"type": "Feature", "properties": {"railway": "rail"},
+  ASSERT_THAT(
+      Run(R"({"type": "Feature", "properties": {"railway": "rail"},
     "geometry": {"type": "LineString", "coordinates": [)" +
-                          points + "]}}");
-  const fs::path out = directory.path() / "out";
-  const Ended run = Generate("import " + map.string() + " --out " + out.string());
-  ASSERT_EQ(run.status, 0) << run.said;
-  EXPECT_THAT(run.said,
-              ::testing::ContainsRegex(
-                  "remark places-far: 1 point of a track more than 5 m from the fitted "
-                  "line: contradictions.csv has them \\(in .*map.geojson: line line at "));
-  EXPECT_THAT(ReadFileWhole(out / "left_out.csv"), HasSubstr("places-far"));
+          points + "]}}"),
+      ExitsWith(0, ContainsRegex(
+                       "remark places-far: 1 point of a track more than 5 m from the fitted "
+                       "line: contradictions.csv has them \\(in .*map.geojson: line line at ")));
+  EXPECT_THAT(Text("left_out.csv"), HasSubstr("places-far"));
 }
 
-TEST(Import, ListsWhatOfTheMapWasNotTakenAsItStands) {
-  const TemporaryDirectory directory;
-  const fs::path map = directory.path() / "map.geojson";
-  const fs::path out = directory.path() / "out";
+TEST_F(Import, ListsWhatOfTheMapWasNotTakenAsItStands) {
   std::string text = kMap;
   text.replace(text.find("\"60\""), 4, "\"DE:rural\"");
-  WriteFileWhole(map, text);
-  const Ended run = Generate("import " + map.string() + " --out " + out.string());
-  ASSERT_EQ(run.status, 0) << run.said;
-  EXPECT_THAT(run.said, HasSubstr("remark speeds-unread: 1 speed limit that is not understood"));
-  EXPECT_THAT(
-      ReadFileWhole(out / "left_out.csv"),
-      HasSubstr(
-          ",speeds-unread,,,\"/features/0/geometry: 1 speed limit that is not understood: its "
-          "track counts as without one: 'DE:rural'\""));
+  ASSERT_THAT(
+      Run(text),
+      ExitsWith(0, HasSubstr("remark speeds-unread: 1 speed limit that is not understood")));
+  EXPECT_THAT(Text("left_out.csv"),
+              HasSubstr(",speeds-unread,,,\"/features/0/geometry: 1 speed limit that is not "
+                        "understood: its track counts as without one: 'DE:rural'\""));
 }
 
-TEST(Import, NeedsAnElevationModelThatDoesNotEnd) {
-  const TemporaryDirectory directory;
-  const fs::path map = directory.path() / "map.geojson";
-  const fs::path grid = directory.path() / "dem.asc";
-  WriteFileWhole(map, kMap);
-  WriteFileWhole(
-      grid, "ncols 3\nnrows 2\nxllcorner 15.598\nyllcorner 48.195\ncellsize 0.01\n1 2 3\n4 5 6\n");
-  const Ended run =
-      Generate("import " + map.string() + " --out " + (directory.path() / "out").string() +
-               " --heights " + grid.string() + " --heights-crs EPSG:4326");
-  EXPECT_EQ(run.status, 1);
-  EXPECT_THAT(run.said, HasSubstr("dem.asc: must cover the lines to their ends (got none of "
-                                  "hill-line at 15.6, 48.2 degrees)"));
-  EXPECT_FALSE(fs::exists(directory.path() / "out"));
+TEST_F(Import, NeedsAnElevationModelThatDoesNotEnd) {
+  EXPECT_THAT(RunWithHeights(kMap,
+                             "ncols 3\nnrows 2\nxllcorner 15.598\nyllcorner 48.195\n"
+                             "cellsize 0.01\n1 2 3\n4 5 6\n"),
+              ExitsWith(1, HasSubstr("dem.asc: must cover the lines to their ends (got none of "
+                                     "hill-line at 15.6, 48.2 degrees)")));
+  EXPECT_FALSE(fs::exists(out_));
 }
 
-TEST(Import, TakesHeightsFromTheMap) {
-  const TemporaryDirectory directory;
-  const fs::path map = directory.path() / "map.geojson";
-  WriteFileWhole(map, R"({"type": "LineString", "coordinates":
-    [[15.60, 48.20, 250], [15.61, 48.20, 255], [15.62, 48.20, 260], [15.63, 48.20, 265]]})");
+TEST_F(Import, TakesHeightsFromTheMap) {
   const auto origin_z_m = [&](const std::string& options) -> double {
-    const fs::path out = directory.path() / (options.empty() ? "own" : "level");
-    const Ended run = Generate("import " + map.string() + " --out " + out.string() + options);
-    EXPECT_EQ(run.status, 0) << run.said;
-    return nlohmann::json::parse(ReadFileWhole(out / "line.alignment.json"))["origin_m"][2];
+    EXPECT_THAT(Run(R"({"type": "LineString", "coordinates":
+    [[15.60, 48.20, 250], [15.61, 48.20, 255], [15.62, 48.20, 260], [15.63, 48.20, 265]]})",
+                    options),
+                ExitsWith(0));
+    const double z_m = nlohmann::json::parse(Text("line.alignment.json"))["origin_m"][2];
+    fs::remove_all(out_);
+    return z_m;
   };
   // The line may run either way.
   EXPECT_THAT(origin_z_m(""), ::testing::AnyOf(::testing::DoubleNear(250.0, 0.1),
@@ -267,73 +241,50 @@ TEST(Import, TakesHeightsFromTheMap) {
   EXPECT_EQ(origin_z_m(" --level"), 0.0);
 }
 
-TEST(Import, CutsTheMapToARectangle) {
-  const TemporaryDirectory directory;
-  const fs::path map = directory.path() / "map.geojson";
-  WriteFileWhole(map, kMap);
-  const auto import = [&](const std::string& corners, const std::string& out) {
-    return Generate("import " + map.string() + " --min-length 500 --within " + corners + " --out " +
-                    (directory.path() / out).string());
+TEST_F(Import, CutsTheMapToARectangle) {
+  const auto import = [&](const std::string& corners) {
+    return Run(kMap, " --min-length 500 --within " + corners);
   };
-  const Ended run = import("15.605,48.1,15.625,48.3", "cut");
-  ASSERT_EQ(run.status, 0) << run.said;
-  // From 15.61 to 15.62 degrees; the whole line has 2.2 km.
-  EXPECT_THAT(run.said, HasSubstr("| hill-line | 0.74"));
-
-  const Ended wrong_way = import("15.625,48.1,15.605,48.3", "wrong");
-  EXPECT_EQ(wrong_way.status, 1);
-  EXPECT_THAT(wrong_way.said,
-              HasSubstr("--within: must be the corner with the least longitude and latitude, then "
-                        "that with the greatest (got 15.625,48.1,15.605,48.3)"));
-  const Ended elsewhere = import("10,48,11,49", "elsewhere");
-  EXPECT_EQ(elsewhere.status, 1);
-  EXPECT_THAT(elsewhere.said, HasSubstr("map.geojson in it (got 10,48,11,49)"));
-  EXPECT_THAT(import("48.1,15.605,48.3,15.625", "elsewhere").said,
+  EXPECT_THAT(import("15.625,48.1,15.605,48.3"),
+              ExitsWith(1, HasSubstr("--within: must be the corner with the least longitude and "
+                                     "latitude, then that with the greatest (got "
+                                     "15.625,48.1,15.605,48.3)")));
+  EXPECT_THAT(import("10,48,11,49"),
+              ExitsWith(1, HasSubstr("map.geojson in it (got 10,48,11,49)")));
+  EXPECT_THAT(import("48.1,15.605,48.3,15.625").said,
               HasSubstr("map.geojson in it: longitude and latitude are exchanged (got "
                         "48.1,15.605,48.3,15.625)"));
-  EXPECT_EQ(import("15.6,48.1,15.7", "three").status, 2);
-  EXPECT_EQ(import("15.6,48.1,15.7,99999", "far").status, 2);
-  for (const char* refused : {"wrong", "elsewhere", "three", "far"}) {
-    EXPECT_FALSE(fs::exists(directory.path() / refused)) << refused;
-  }
+  EXPECT_EQ(import("15.6,48.1,15.7").status, 2);
+  EXPECT_EQ(import("15.6,48.1,15.7,99999").status, 2);
+  EXPECT_FALSE(fs::exists(out_));
+  // From 15.61 to 15.62 degrees; the whole line has 2.2 km.
+  EXPECT_THAT(import("15.605,48.1,15.625,48.3"), ExitsWith(0, HasSubstr("| hill-line | 0.74")));
 }
 
-TEST(Import, RefusesAFolderThatIsNotEmpty) {
-  const TemporaryDirectory directory;
-  const fs::path map = directory.path() / "map.geojson";
-  WriteFileWhole(map, kMap);
-  const Ended run = Generate("import " + map.string() + " --out " + directory.path().string());
-  EXPECT_EQ(run.status, 1);
-  EXPECT_THAT(run.said, HasSubstr("--out: must be a new or an empty folder (got " +
-                                  directory.path().string() + ")"));
+TEST_F(Import, RefusesAFolderThatIsNotEmpty) {
+  WriteFileWhole(map_, kMap);
+  const std::string folder = directory_.path().string();
+  EXPECT_THAT(
+      Generate("import " + map_.string() + " --out " + folder),
+      ExitsWith(1, HasSubstr("--out: must be a new or an empty folder (got " + folder + ")")));
 }
 
-TEST(Import, NamesTheMapThatIsTooLarge) {
-  const TemporaryDirectory directory;
-  const fs::path map = directory.path() / "map.geojson";
-  WriteFileWhole(map, R"({"type": "MultiLineString", "coordinates":
-    [[[-90, 0], [-89.9, 0]], [[89.9, 0], [90, 0]]]})");
-  const Ended run = Generate("import " + map.string() + " --out " + directory.path().string());
-  EXPECT_EQ(run.status, 1);
-  EXPECT_THAT(run.said,
-              HasSubstr("map.geojson: the map must lie about its middle at 0, 0 degrees"));
+TEST_F(Import, NamesTheMapThatIsTooLarge) {
+  EXPECT_THAT(
+      Run(R"({"type": "MultiLineString", "coordinates":
+    [[[-90, 0], [-89.9, 0]], [[89.9, 0], [90, 0]]]})"),
+      ExitsWith(1, HasSubstr("map.geojson: the map must lie about its middle at 0, 0 degrees")));
 }
 
-TEST(Import, RefusesWhatItCannotUseInOneLine) {
-  const TemporaryDirectory directory;
-  const fs::path map = directory.path() / "map.geojson";
-  WriteFileWhole(map, kMap);
-  const std::string out = " --out " + (directory.path() / "out").string();
-  const Ended no_line = Generate("import " + map.string() + out + " --min-length 5000");
-  EXPECT_EQ(no_line.status, 1);
-  EXPECT_THAT(no_line.said, HasSubstr("must have a line of at least --min-length 5000 m"));
-  const Ended no_file = Generate("import " + (directory.path() / "none.json").string() + out);
-  EXPECT_EQ(no_file.status, 1);
-  EXPECT_THAT(no_file.said, HasSubstr("none.json: "));
-  const Ended no_system = Generate("import " + map.string() + out + " --crs EPSG:99999");
-  EXPECT_EQ(no_system.status, 1);
-  EXPECT_THAT(no_system.said, HasSubstr("--crs: must be a coordinate system that PROJ knows"));
-  EXPECT_FALSE(fs::exists(directory.path() / "out"));
+TEST_F(Import, RefusesWhatItCannotUseInOneLine) {
+  EXPECT_THAT(Run(kMap, " --min-length 5000"),
+              ExitsWith(1, HasSubstr("must have a line of at least --min-length 5000 m")));
+  EXPECT_THAT(Run(kMap, " --crs EPSG:99999"),
+              ExitsWith(1, HasSubstr("--crs: must be a coordinate system that PROJ knows")));
+  EXPECT_THAT(
+      Generate("import " + (directory_.path() / "none.json").string() + " --out " + out_.string()),
+      ExitsWith(1, HasSubstr("none.json: ")));
+  EXPECT_FALSE(fs::exists(out_));
 }
 
 }  // namespace

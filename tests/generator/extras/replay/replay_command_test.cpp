@@ -16,6 +16,7 @@
 #include "tests/core/io/stream/listening_program.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/live/live_process.h"
+#include "tests/support/exits_with.h"
 
 namespace railcast {
 namespace {
@@ -42,8 +43,8 @@ std::string ReplayedScenario(const fs::path& folder, const std::string& sensor =
 
 /// Makes a sequence of a scenario and returns its directory.
 fs::path MadeRun(const std::string& scenario, const fs::path& out, const std::string& options) {
-  const Ended ended = Generate("sequence " + scenario + " --out " + out.string() + " " + options);
-  EXPECT_EQ(ended.status, 0) << ended.said;
+  EXPECT_THAT(Generate("sequence " + scenario + " --out " + out.string() + " " + options),
+              ExitsWith(0));
   return out;
 }
 
@@ -92,10 +93,9 @@ TEST(ReplayCommand, SendsTheFramesOfASequence) {
     EXPECT_EQ(header.fields.size(), 8U);
     ExpectSamePoints(*received, run / ("frames/00000" + std::to_string(i) + ".pcd"));
   }
-  const Ended ended = replay.get();
-  EXPECT_EQ(ended.status, 0) << ended.said;
-  EXPECT_THAT(ended.said, testing::StartsWith("coarse: railcast to " + at + "\n"));
-  EXPECT_THAT(ended.said, testing::HasSubstr("coarse: 4 frames, "));
+  EXPECT_THAT(replay.get(),
+              ExitsWith(0, testing::AllOf(testing::StartsWith("coarse: railcast to " + at + "\n"),
+                                          testing::HasSubstr("coarse: 4 frames, "))));
 }
 
 class ReplayedCapture : public testing::TestWithParam<const char*> {};
@@ -117,8 +117,7 @@ TEST_P(ReplayedCapture, ArrivesByteForByteAtItsPortsAtItsPace) {
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
   const auto expected_reports = PayloadsTo(capture, reports.at().port);
   EXPECT_TRUE(Receive(reports, expected_reports.size()) == expected_reports);
-  const Ended ended = replay.get();
-  EXPECT_EQ(ended.status, 0) << ended.said;
+  EXPECT_THAT(replay.get(), ExitsWith(0));
   // Each of them holds 0.29 s of data at least.
   EXPECT_GT(elapsed.count(), 0.29 / 2);
 }
@@ -138,10 +137,8 @@ TEST(ReplayCommand, SendsTheRealPacketsOfABag) {
       Replaying(bag.string() + " --protocol packets --rate 4 --to " + EndpointText(receiver.at()));
   constexpr std::size_t kPacketSize = 1080;
   for (const Payload& payload : Receive(receiver, 100)) EXPECT_EQ(payload.size(), kPacketSize);
-  const Ended ended = replay.get();
-  EXPECT_EQ(ended.status, 0) << ended.said;
-  EXPECT_THAT(ended.said,
-              testing::StartsWith("XT32: packets to " + EndpointText(receiver.at()) + "\n"));
+  EXPECT_THAT(replay.get(), ExitsWith(0, testing::StartsWith("XT32: packets to " +
+                                                             EndpointText(receiver.at()) + "\n")));
 }
 
 class ReplayedPackets : public testing::TestWithParam<const char*> {};
@@ -151,9 +148,9 @@ TEST_P(ReplayedPackets, OfASequenceAreThoseThatStreamSends) {
   const TemporaryDirectory folder;
   const std::string scenario = ReplayedScenario(folder.path(), protocol);
   const fs::path capture = folder.path() / "stream.pcap";
-  const Ended streamed = Generate("stream " + scenario + " --protocol " + protocol +
-                                  " --duration 0.2 --pcap " + capture.string());
-  ASSERT_EQ(streamed.status, 0) << streamed.said;
+  ASSERT_THAT(Generate("stream " + scenario + " --protocol " + protocol +
+                       " --duration 0.2 --pcap " + capture.string()),
+              ExitsWith(0));
   const fs::path run = MadeRun(scenario, folder.path() / "run", "--frames 2");
   UdpReceiver receiver(kAnyLoopbackPort);
   auto replay =
@@ -212,11 +209,12 @@ TEST(ReplayCommand, WritesItsSummaryAndWhatWasDamaged) {
       MadeRun(ReplayedScenario(folder.path()), folder.path() / "run", "--frames 3");
   fs::resize_file(run / "frames/000002.pcd", 1'000);
   const fs::path summary = folder.path() / "summary.json";
-  const Ended ended = Generate("replay " + run.string() + " --rate 10 --to 127.0.0.1:9 --summary " +
-                               summary.string());
-  EXPECT_EQ(ended.status, 1);
-  EXPECT_THAT(ended.said, testing::HasSubstr("coarse: 2 frames, "));
-  EXPECT_THAT(ended.said, testing::HasSubstr("\n" + (run / "frames/000002.pcd").string() + ": "));
+  EXPECT_THAT(
+      Generate("replay " + run.string() + " --rate 10 --to 127.0.0.1:9 --summary " +
+               summary.string()),
+      ExitsWith(1, testing::AllOf(
+                       testing::HasSubstr("coarse: 2 frames, "),
+                       testing::HasSubstr("\n" + (run / "frames/000002.pcd").string() + ": "))));
   const auto json = nlohmann::json::parse(ReadFileWhole(summary));
   EXPECT_EQ(json.at("command"), "replay");
   EXPECT_EQ(json.at("sensors").at(0).at("frames"), 2);
@@ -233,9 +231,7 @@ TEST(ReplayCommand, EndsInOrderOnASignal) {
                           EndpointText(receiver.at()) + NotedIn(pid_file));
   ASSERT_TRUE(receiver.Next(kPatience_ms));
   Interrupt(pid_file);
-  const Ended ended = replay.get();
-  EXPECT_EQ(ended.status, 0) << ended.said;
-  EXPECT_THAT(ended.said, testing::HasSubstr(" late; "));
+  EXPECT_THAT(replay.get(), ExitsWith(0, testing::HasSubstr(" late; ")));
 }
 
 TEST(ReplayCommand, SaysWhatDoesNotGoTogether) {

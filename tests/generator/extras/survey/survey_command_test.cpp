@@ -20,6 +20,7 @@
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/project_folder.h"
 #include "tests/generator/run_command.h"
+#include "tests/support/exits_with.h"
 
 namespace railcast {
 namespace {
@@ -39,9 +40,9 @@ std::string GroundCloud() {
 TEST(SurveyCommand, TakesACloudInTheWorldsAxes) {
   const TemporaryDirectory directory;
   WriteFileWhole(directory.path() / "ground.ply", GroundCloud());
-  const Ended ended = Generate("survey " + (directory.path() / "ground.ply").string() +
-                               " --world-axes --out " + (directory.path() / "out").string());
-  EXPECT_EQ(ended.status, 0) << ended.said;
+  EXPECT_THAT(Generate("survey " + (directory.path() / "ground.ply").string() +
+                       " --world-axes --out " + (directory.path() / "out").string()),
+              ExitsWith(0));
   const SurveyFile file(directory.path() / "out" / "scene.survey");
   EXPECT_EQ(file.num_surfels(), 900U);
   const auto cell = SurveyCellAt({3'400'001.0, 5'800'001.0});
@@ -64,9 +65,9 @@ TEST(SurveyCommand, TakesPointsAndClassesOfLas) {
     point[16] = 11;
   }
   WriteFileWhole(directory.path() / "road.las", las);
-  const Ended ended = Generate("survey " + (directory.path() / "road.las").string() +
-                               " --world-axes --out " + (directory.path() / "out").string());
-  EXPECT_EQ(ended.status, 0) << ended.said;
+  EXPECT_THAT(Generate("survey " + (directory.path() / "road.las").string() +
+                       " --world-axes --out " + (directory.path() / "out").string()),
+              ExitsWith(0));
   const SurveyFile file(directory.path() / "out" / "scene.survey");
   EXPECT_EQ(file.num_surfels(), 900U);
   EXPECT_EQ(file.labels().back(), "road");
@@ -88,12 +89,11 @@ TEST(SurveyCommand, TakesOneScaleOfIntensitiesForAllFiles) {
   };
   write("0.las", 200, 0);
   write("1.las", 32'768, 50'000);
-  const Ended ended = Generate("survey " + (directory.path() / "site").string() +
-                               " --world-axes --out " + (directory.path() / "out").string());
-  EXPECT_EQ(ended.status, 0) << ended.said;
-  EXPECT_THAT(ended.said,
-              testing::HasSubstr("white surfaces are taken to have an intensity of 65535, by the "
-                                 "highest one of all files; --white says it\n"));
+  EXPECT_THAT(Generate("survey " + (directory.path() / "site").string() + " --world-axes --out " +
+                       (directory.path() / "out").string()),
+              ExitsWith(0, testing::HasSubstr(
+                               "white surfaces are taken to have an intensity of 65535, by the "
+                               "highest one of all files; --white says it\n")));
   SurveySource source{.recordings = {directory.path() / "site"}, .is_in_world = true};
   source.guessed_white = GuessWhite(source).value();
   SurveyLabels labels;
@@ -117,14 +117,14 @@ TEST(SurveyCommand, WritesAWorldOfASensorThatStood) {
 TEST(SurveyCommand, SaysThatPosesAreMissing) {
   const TemporaryDirectory directory;
   WriteFileWhole(directory.path() / "ground.ply", GroundCloud());
-  const Ended ended = Generate("survey " + (directory.path() / "ground.ply").string() + " --out " +
-                               (directory.path() / "out").string() + " 2>&1");
-  EXPECT_EQ(ended.status, 1);
-  EXPECT_NE(ended.said.find(
-                "has no pose; must be given with --poses, with --standing if the "
-                "sensor did not move, or with --world-axes if the points are in the world's axes"),
-            std::string::npos)
-      << ended.said;
+  EXPECT_THAT(
+      Generate("survey " + (directory.path() / "ground.ply").string() + " --out " +
+               (directory.path() / "out").string() + " 2>&1"),
+      ExitsWith(
+          1,
+          testing::HasSubstr(
+              "has no pose; must be given with --poses, with --standing if the "
+              "sensor did not move, or with --world-axes if the points are in the world's axes")));
 }
 
 constexpr const char* kTwoPoses = "1 0 0 100 0 1 0 20 0 0 1 7\n1 0 0 104 0 1 0 20 0 0 1 7\n";
@@ -169,15 +169,16 @@ TEST(SurveyCommand, AsksForTheSensorsHeightWhereNoGroundWasSeenBelowTheWay) {
   const TemporaryDirectory directory;
   // Without a place below which there is ground: 1 m ahead is more than a cell of 0.5 m.
   const std::string command = WriteGroundSeenTwice(directory.path(), kTwoPoses, 1.0);
-  const Ended asked = Generate(command);
-  EXPECT_EQ(asked.status, 1);
-  EXPECT_EQ(asked.said,
-            "--sensor-height: must be given, since no ground was seen below the sensor's way by "
-            "which to tell the top of rail (got none)\n");
+  EXPECT_THAT(
+      Generate(command),
+      ExitsWith(
+          1,
+          "--sensor-height: must be given, since no ground was seen below the sensor's way by "
+          "which to tell the top of rail (got none)\n"));
   EXPECT_FALSE(exists(directory.path() / "out" / "scene.survey"));
-  const Ended told = Generate(command + " --sensor-height 1.5");
-  EXPECT_EQ(told.status, 0) << told.said;
-  EXPECT_THAT(told.said, testing::HasSubstr("top of rail is taken to be 1.5 m below the sensor"));
+  EXPECT_THAT(
+      Generate(command + " --sensor-height 1.5"),
+      ExitsWith(0, testing::HasSubstr("top of rail is taken to be 1.5 m below the sensor")));
 }
 
 /// Makes one frame of a scenario of the folder as the sequence `name`.
@@ -198,8 +199,7 @@ TEST(SurveyCommand, MakesScenesThatSequencesKeep) {
   const TemporaryDirectory directory;
   ASSERT_EQ(Generate(WriteGroundSeenTwice(directory.path(), kTwoPoses)).status, 0);
   const auto make = [&](const std::string& scenario, const std::string& name) {
-    const Ended ended = MakeSurveyed(directory.path(), scenario, name);
-    EXPECT_EQ(ended.status, 0) << ended.said;
+    EXPECT_THAT(MakeSurveyed(directory.path(), scenario, name), ExitsWith(0));
     return directory.path() / name;
   };
   const auto first = make("site.json", "first");
@@ -237,9 +237,7 @@ TEST(SurveyCommand, MakesSurveysOfWhichNoChangedByteGoesUnnoticed) {
   const std::string fault = (out / "scene.survey").string() + ": must have the hash " + hash +
                             ", as survey.json says (got " + ContentHash(scene) + ")";
   EXPECT_THAT(VerifySurvey(out).faults, testing::ElementsAre(fault));
-  const Ended refused = MakeSurveyed(directory.path(), "site.json", "made");
-  EXPECT_EQ(refused.status, 1);
-  EXPECT_EQ(refused.said, fault + "\n");
+  EXPECT_THAT(MakeSurveyed(directory.path(), "site.json", "made"), ExitsWith(1, fault + "\n"));
   std::filesystem::remove(out / "survey.json");
   EXPECT_THAT(VerifySurvey(out).faults,
               testing::ElementsAre((out / "survey.json").string() +
@@ -275,9 +273,8 @@ TEST(SurveyCommand, HoldsTimesOfPosesAgainstThoseOfFrames) {
     return Generate(command);
   };
   EXPECT_THAT(survey("100", "400").said, testing::Not(testing::HasSubstr("remark")));
-  const Ended other = survey("5000", "5300");
-  EXPECT_EQ(other.status, 0) << other.said;
-  EXPECT_THAT(other.said, testing::HasSubstr("remark times-relative: 2 frames"));
+  EXPECT_THAT(survey("5000", "5300"),
+              ExitsWith(0, testing::HasSubstr("remark times-relative: 2 frames")));
   EXPECT_THAT(survey("100", "280").said,
               testing::HasSubstr("must be as long after the first as those of the frames (got 180 "
                                  "s for frame 1, which came after 300 s)"));
