@@ -59,7 +59,7 @@ inline constexpr double kInstructionsOfMoreSubRays = 12274.0;
 /// Where only beams have a width that may meet certain classes (BeamSpec::footprint_of): what it
 /// takes to tell which, and the share of `footprint` that is left. Counted in the same way, with no
 /// such class and with all but ground, ballast, sleepers, roads and plants.
-inline constexpr double kInstructionsOfChoosing = 1490.0;
+inline constexpr double kInstructionsOfChoosing = 680.0;
 inline constexpr double kShareOfChosen = 0.17;
 
 /// Estimated instructions per firing of Simulator::Scan with a set of effects.
