@@ -173,13 +173,15 @@ std::vector<LineWorld> BuildWorlds(const RailMap& map,
 std::string TracksCsv(const std::vector<ImportedLine>& lines,
                       const std::vector<LineWorld>& worlds) {
   std::ostringstream csv;
-  csv << "line,tracks,turnouts,median_shift_m,p95_shift_m,length_m,points,median_m,p99_m\n";
+  csv << "line,tracks,turnouts,median_shift_m,p95_shift_m,length_m,points,median_m,p99_m,"
+         "crossings,switches,switches_made\n";
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const SideTrackQuality& q = worlds[i].quality;
     csv << lines[i].name << ',' << q.num_tracks << ',' << q.num_turnouts << ','
         << QuantileOf(q.shifts_m, 0.5) << ',' << QuantileOf(q.shifts_m, 0.95) << ',' << q.length_m
         << ',' << q.distances_m.size() << ',' << QuantileOf(q.distances_m, 0.5) << ','
-        << QuantileOf(q.distances_m, 0.99) << '\n';
+        << QuantileOf(q.distances_m, 0.99) << ',' << worlds[i].crossings.size() << ','
+        << q.num_switches << ',' << worlds[i].switches.size() << '\n';
   }
   return csv.str();
 }

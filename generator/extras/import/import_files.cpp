@@ -144,6 +144,9 @@ std::string WorldFileText(const ImportedLine& line, const LineWorld& world, bool
   if (has_elevation) file["terrain"]["elevation"]["file"] = line.name + ".elevation.asc";
   for (const StructureSpec& spec : world.structures) file["structures"].push_back(JsonOf(spec));
   for (const WorldTrack& track : world.tracks) file["tracks"].push_back(JsonOf(track.draft.spec));
+  for (DiamondCrossingSpec spec : world.crossings) {
+    file["diamond_crossings"].push_back(JsonWriter::WriteShort(spec));
+  }
   return TextWithItems(file) + "\n";
 }
 

@@ -15,6 +15,7 @@
 #include "generator/extras/import/network/track_runs.h"
 #include "railcast/rail_world.h"
 #include "railcast/structures.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 
@@ -42,11 +43,11 @@ struct WorldTrack {
   [[nodiscard]] double OffAt_m(double s_m) const;
 };
 
-/// A switch of the map that is a turnout of a world.
+/// A switch of the map that is a turnout of a world, or a place where tracks cross on both.
 struct MadeSwitch {
   std::size_t node{};
   double s_m{};
-  std::string branch;  ///< Name of the track that begins or ends in it.
+  std::string branch;  ///< Name of the track that begins or ends in it, or crosses another one.
 };
 
 /// A stretch of a track of which the map's points are more than kFarOff_m from it: it was moved
@@ -70,6 +71,7 @@ struct SideTrackQuality {
   std::size_t num_turnouts{};
   double length_m{};
   std::vector<double> distances_m;  ///< Of the map's points from their tracks, ascending.
+  std::size_t num_switches{};       ///< Of the map, on tracks; those made are LineWorld::switches.
   /// From the map's switches to the beginnings of their turnouts, along the line, ascending.
   std::vector<double> shifts_m;
 };
@@ -77,6 +79,7 @@ struct SideTrackQuality {
 /// What a world has besides its alignment.
 struct LineWorld {
   std::vector<WorldTrack> tracks;  ///< The first is "main".
+  std::vector<DiamondCrossingSpec> crossings;
   std::vector<StructureSpec> structures;
   RunsBeside beside;  ///< The tracks of the map beside the line, made or not.
   std::vector<MadeSwitch> switches;
@@ -107,8 +110,10 @@ inline constexpr double kFarOff_m = 0.5;
 /// - the same moved away from tracks to which the map has it too near (MovedApart);
 /// - two such tracks, one from each end, and ones without turnouts, as far as they are apart from
 ///   all others.
-/// Tunnels of a run in which it crosses below the line are left out with their track. Whatever of a
-/// run is in no track, and each switch that is no turnout, is a LeftOut with its reason.
+/// Where two tracks cross at a node of the map they do so in a diamond, unless the line has cant
+/// there or a turnout lies in it. Tunnels of a run in which it crosses below the line are left out
+/// with their track. Whatever of a run is in no track, and each switch that is no turnout, is a
+/// LeftOut with its reason.
 void AddSideTracks(const RailMap& map,
                    const TrackLine& track,
                    const ImportedLine& line,

@@ -50,26 +50,6 @@ bool IsWhole(const OpenRun& open, const TrackDraft& draft) {
   return draft.turnouts.size() == open.num_meetings() && Covers(draft, open.run);
 }
 
-/// A cut is this far from where a track comes too near to others, and sought in these steps.
-constexpr double kCutMargin_m = 1.0;
-constexpr double kCutStep_m = 0.5;
-
-/// The length of a fit, not above another one, at which it is cut before a chainage.
-double EndBefore_m(const RunFit& fit, double most_m, double conflict_s_m) {
-  double at_m = most_m;
-  while (at_m > 0.0 && fit.course.At(at_m).x_m > conflict_s_m - kCutMargin_m) at_m -= kCutStep_m;
-  return fit.OutOfClothoid_m(at_m, true);
-}
-
-/// The length of a fit from which on it lies behind a chainage.
-double BeginBehind_m(const RunFit& fit, double conflict_s_m) {
-  double at_m = 0.0;
-  while (at_m < fit.plan.length_m() && fit.course.At(at_m).x_m < conflict_s_m + kCutMargin_m) {
-    at_m += kCutStep_m;
-  }
-  return fit.OutOfClothoid_m(at_m, false);
-}
-
 /// A point of a plan of chainage and offset, as tracks have it.
 TrackOffset OffsetAtPoint(const PlanPoint& at) {
   const double slope = std::tan(at.heading_rad);
@@ -130,9 +110,14 @@ class SideTrackSearch {
         leave_out(kOnNoTrack);
         continue;
       }
+      ++world_.quality.num_switches;
       if (!has_turnouts_) {
         leave_out("there are turnouts of " + NumberText(kStandardGauge_mm) +
                   " mm gauge only, and the line has " + NumberText(gauge_mm_) + " mm");
+        continue;
+      }
+      if (const auto track = network_.TrackCrossingAt(node.place_m)) {
+        world_.switches.push_back({node.node, node.place_m.x(), *track});
         continue;
       }
       const MeetingPoint* met = nullptr;
@@ -146,7 +131,7 @@ class SideTrackSearch {
       } else if (node.num_ways < 3) {
         leave_out("the map has no branch there");
       } else if (node.num_ways > 3) {
-        leave_out("crossings and slips are not made");
+        leave_out(network_.ReasonAgainstCrossing(node.place_m));
       } else if (met) {
         leave_out("no turnout fits there that leads to the branch, apart from others");
       } else {
@@ -293,8 +278,8 @@ class SideTrackSearch {
         return end_s_m;
       }
       if (!best.conflict_m) return std::nullopt;
-      free_end_m = is_begin ? EndBefore_m(fit, free_end_m, *best.conflict_m)
-                            : BeginBehind_m(fit, *best.conflict_m);
+      free_end_m = is_begin ? fit.EndBefore_m(*best.conflict_m, free_end_m)
+                            : fit.BeginBehind_m(*best.conflict_m);
     }
     return std::nullopt;
   }
@@ -302,13 +287,22 @@ class SideTrackSearch {
   /// Makes tracks without turnouts of all stretches of a run that are apart from others.
   void TakeFree(const OpenRun& open) {
     const RunFit fit(open.run, open.sigma_m);
-    // Stretches that are apart from all others, with ends at whole metres of the fit.
+    const std::optional<TrackDraft> whole =
+        network_.Make(TrackOfPart(fit, 0.0, fit.plan.length_m()));
+    const auto crosses_at = [&](double s_m) {
+      constexpr double kBeside_m = 5.0;  // Farther apart by the difference to kApart_m.
+      return whole && std::ranges::any_of(whole->crossings, [&](const TrackCrossing& crossing) {
+               return s_m > crossing.close.begin_s_m - kBeside_m &&
+                      s_m < crossing.close.end_s_m + kBeside_m;
+             });
+    };
+    // Stretches that are apart from all others or cross them, with ends at whole metres of the fit.
     std::vector<ChainageRange> free;
     bool goes_on = false;
     for (double at_m = 0.0; at_m <= fit.plan.length_m(); ++at_m) {
       const PlanPoint at = fit.course.At(at_m);
       const bool fits = at.x_m >= 0.0 && at.x_m <= network_.length_m() &&
-                        network_.IsApartAt(at.x_m, at.y_m) &&
+                        (network_.IsApartAt(at.x_m, at.y_m) || crosses_at(at.x_m)) &&
                         network_.HasRoom(at.x_m, OffsetAtPoint(at));
       if (fits && !goes_on) free.push_back({at_m, at_m});
       if (fits) free.back().end_s_m = at_m;
@@ -326,8 +320,8 @@ class SideTrackSearch {
     std::optional<TrackDraft> draft = network_.Make(TrackOfPart(fit, from_m, to_m));
     if (!draft) return;
     if (const auto conflict_s_m = network_.FirstConflict_m(*draft)) {
-      TakeStretch(open, fit, {from_m, EndBefore_m(fit, to_m, *conflict_s_m)});
-      const double behind_m = BeginBehind_m(fit, *conflict_s_m);
+      TakeStretch(open, fit, {from_m, fit.EndBefore_m(*conflict_s_m, to_m)});
+      const double behind_m = fit.BeginBehind_m(*conflict_s_m);
       if (behind_m > from_m) TakeStretch(open, fit, {behind_m, to_m});
       return;
     }
@@ -353,6 +347,11 @@ class SideTrackSearch {
         meeting.turnout_s_m = turnout.s_m;
         meeting.branch = draft.spec.name;
       }
+    }
+    for (const TrackCrossing& crossing : draft.crossings) {
+      const std::size_t other = std::min(crossing.site.first, crossing.site.second);
+      world_.crossings.push_back({.tracks = {network_.tracks()[other].spec.name, draft.spec.name},
+                                  .s_m = RoundedTo(crossing.site.s_m, 1e3)});
     }
     ++world_.quality.num_tracks;
     world_.quality.num_turnouts += draft.turnouts.size();
@@ -443,7 +442,13 @@ void AddSideTracks(const RailMap& map,
                    const ImportOptions& options,
                    LineWorld& world) {
   const LinePlaces places(map, track, line);
-  SideTrackSearch search(TrackNetwork(line.alignment), line, options.sigma_m, world);
+  const std::vector<SwitchNode> switches = FindSwitches(map, places, kRunStrip_m);
+  std::vector<Eigen::Vector2d> crossings_m;
+  for (const SwitchNode& node : switches) {
+    if (node.num_ways > 3) crossings_m.push_back(node.place_m);
+  }
+  SideTrackSearch search(TrackNetwork(line.alignment, std::move(crossings_m)), line,
+                         options.sigma_m, world);
   world.beside = FindRuns(map, track, places, options.otherwise_kmph);
   for (std::size_t i = 0; i < world.beside.runs.size(); ++i) {
     const TrackRun& run = world.beside.runs[i];
@@ -455,7 +460,7 @@ void AddSideTracks(const RailMap& map,
     }
     search.Take(run, i, below);
   }
-  search.CountSwitches(FindSwitches(map, places, kRunStrip_m));
+  search.CountSwitches(switches);
   std::ranges::sort(world.quality.distances_m);
 }
 

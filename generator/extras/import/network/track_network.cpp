@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "core/rail/base/world_faults.h"
 #include "core/rail/landform/landform.h"
 #include "core/rail/line/alignment_course.h"
 #include "core/rail/network/network_draft.h"
@@ -18,7 +19,7 @@ namespace {
 constexpr double kLeastApart_m = kLeastTrackDistance_m + 0.02;
 
 TrackDraft DraftOf(TrackSpec spec, TrackCourse course) {
-  TrackDraft draft{std::move(spec), std::move(course), {}, {}, 0};
+  TrackDraft draft{std::move(spec), std::move(course), {}, {}, 0, {}};
   draft.first_m = static_cast<int>(std::ceil(draft.course.begin_s_m()));
   for (int at_m = draft.first_m; at_m <= draft.course.end_s_m(); ++at_m) {
     draft.offsets_m.push_back(draft.course.OffsetAt(at_m).d_m);
@@ -29,6 +30,10 @@ TrackDraft DraftOf(TrackSpec spec, TrackCourse course) {
 /// Whether a turnout lies in a track, or the track begins or ends in it.
 bool LiesIn(const TurnoutSite& turnout, std::size_t track) {
   return turnout.track == track || turnout.branch == track;
+}
+
+bool LiesIn(const TrackCrossing& crossing, std::size_t track) {
+  return crossing.site.first == track || crossing.site.second == track;
 }
 
 bool Overlap(const TurnoutSite& turnout, double one_s_m, double other_s_m) {
@@ -49,10 +54,12 @@ double TrackDraft::OffsetNear_m(double s_m) const {
   return std::lerp(offsets_m[before], offsets_m[after], at - std::floor(at));
 }
 
-TrackNetwork::TrackNetwork(const AlignmentSpec& line)
-    : curvature_(PlanOf({}, std::get<AlignmentElementsSpec>(line.course).elements).Curvature()),
+TrackNetwork::TrackNetwork(const AlignmentSpec& line, std::vector<Eigen::Vector2d> crossings_m)
+    : alignment_(line),
+      crossings_m_(std::move(crossings_m)),
+      curvature_(PlanOf({}, std::get<AlignmentElementsSpec>(line.course).elements).Curvature()),
       length_m_(curvature_.end_s_m()),
-      ground_(Alignment(line), WorldSpec().terrain.half_width_m) {
+      ground_(alignment_, WorldSpec().terrain.half_width_m) {
   tracks_.push_back(DraftOf({}, TrackCourse(0.0, length_m_, 0.0)));
 }
 
@@ -69,9 +76,15 @@ TurnoutPlace TrackNetwork::PlaceOf(const TurnoutSpec& spec, bool opens_ahead) co
 
 bool TrackNetwork::IsFree(std::size_t track, double one_s_m, double other_s_m) const {
   return std::ranges::none_of(tracks_, [&](const TrackDraft& other) {
-    return std::ranges::any_of(other.turnouts, [&](const TurnoutSite& turnout) {
+    const auto is_turnout_there = [&](const TurnoutSite& turnout) {
       return LiesIn(turnout, track) && Overlap(turnout, one_s_m, other_s_m);
-    });
+    };
+    const auto is_crossing_there = [&](const TrackCrossing& crossing) {
+      return LiesIn(crossing, track) && std::max(one_s_m, other_s_m) > crossing.site.begin_s_m &&
+             std::min(one_s_m, other_s_m) < crossing.site.end_s_m;
+    };
+    return std::ranges::any_of(other.turnouts, is_turnout_there) ||
+           std::ranges::any_of(other.crossings, is_crossing_there);
   });
 }
 
@@ -102,11 +115,78 @@ std::optional<TrackDraft> TrackNetwork::Make(const TrackSpec& spec) const {
     draft.turnouts.push_back(*site);
     draft.turnouts.back().branch = tracks_.size();
   }
+  AddCrossings(draft);
   return draft;
+}
+
+void TrackNetwork::AddCrossings(TrackDraft& draft) const {
+  // Tracks that cross at 1:9 and are 0.8 m off do so 7 m farther on.
+  constexpr double kAlong_m = 15.0;
+  constexpr double kAside_m = 1.5;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const TrackDraft& track = tracks_[i];
+    const int to_m = std::min(track.end_m(), draft.end_m());
+    double before_m = 0.0;
+    for (int at_m = std::max(track.first_m, draft.first_m); at_m < to_m; ++at_m) {
+      const double apart_m = draft.offsets_m[static_cast<std::size_t>(at_m - draft.first_m)] -
+                             track.offsets_m[static_cast<std::size_t>(at_m - track.first_m)];
+      if (apart_m * std::exchange(before_m, apart_m) >= 0.0) continue;
+      const auto place_m = std::ranges::find_if(crossings_m_, [&](const Eigen::Vector2d& it) {
+        return std::abs(it.x() - at_m) < kAlong_m &&
+               std::abs(it.y() - draft.OffsetNear_m(at_m)) < kAside_m;
+      });
+      if (place_m == crossings_m_.end()) continue;
+      if (auto crossing = CrossingAt(*place_m, i, draft, at_m)) {
+        draft.crossings.push_back(*crossing);
+      }
+    }
+  }
+}
+
+std::optional<TrackCrossing> TrackNetwork::CrossingAt(const Eigen::Vector2d& place_m,
+                                                      std::size_t track,
+                                                      const TrackDraft& draft,
+                                                      double s_m) const {
+  // A network of the two tracks, and of a third one that stands for all others.
+  const auto in_pair = [&](std::size_t index) -> std::size_t {
+    return index == track ? 0 : index == tracks_.size() ? 1 : 2;
+  };
+  WorldSpec pair;
+  pair.tracks = {{.name = "0"}, {.name = "1"}, {.name = "2"}};
+  pair.diamond_crossings = {{.tracks = {"0", "1"}, .s_m = s_m}};
+  NetworkDraft network{{tracks_[track].course, draft.course, std::nullopt}, {}, {}};
+  const auto add = [&](const TrackDraft& other) {
+    for (TurnoutSite turnout : other.turnouts) {
+      turnout.track = in_pair(turnout.track);
+      turnout.branch = in_pair(turnout.branch);
+      network.turnouts.push_back(turnout);
+    }
+    for (const TrackCrossing& crossing : other.crossings) {
+      DiamondSite site = crossing.site;
+      site.first = in_pair(site.first);
+      site.second = in_pair(site.second);
+      network.diamonds.push_back(site);
+    }
+  };
+  std::ranges::for_each(tracks_, add);
+  add(draft);
+  WorldFaults faults;
+  const std::size_t num_others = network.diamonds.size();
+  FindDiamonds(pair, network, faults);
+  if (network.diamonds.size() == num_others) return std::nullopt;
+  DiamondSite site = network.diamonds.back();
+  CheckNetwork(pair, {network.courses, {}, {site}}, alignment_, faults);
+  if (!faults.errors.empty()) return std::nullopt;
+  const ChainageRange close = CloseTo(site, network, kLeastTrackDistance_m);
+  const auto in_all = [&](std::size_t index) { return index == 0 ? track : tracks_.size(); };
+  site.first = in_all(site.first);
+  site.second = in_all(site.second);
+  return TrackCrossing{site, {site.first, site.second, close.begin_s_m, close.end_s_m}, place_m};
 }
 
 std::optional<double> TrackNetwork::FirstConflict_m(const TrackDraft& draft, bool backwards) const {
   std::vector<JoinedSection> joined = joined_;
+  for (const TrackCrossing& crossing : draft.crossings) joined.push_back(crossing.close);
   for (const TurnoutSite& turnout : draft.turnouts) {
     joined.push_back(JoinedSectionOf(tracks_[turnout.track].course, draft.course, turnout));
   }
@@ -164,6 +244,30 @@ std::optional<std::size_t> TrackNetwork::TrackNear(double s_m, double d_m) const
   return near;
 }
 
+std::optional<std::string> TrackNetwork::TrackCrossingAt(const Eigen::Vector2d& place_m) const {
+  for (const TrackDraft& track : tracks_) {
+    for (const TrackCrossing& crossing : track.crossings) {
+      if (crossing.place_m == place_m) return track.spec.name;
+    }
+  }
+  return std::nullopt;
+}
+
+std::string TrackNetwork::ReasonAgainstCrossing(const Eigen::Vector2d& place_m) const {
+  constexpr double kLevel_rad = 1e-3;
+  // The frogs of a crossing at 1:9 are 13 m from its middle.
+  constexpr double kHalf_m = 15.0;
+  const double s_m = place_m.x();
+  if (std::abs(alignment_.At(s_m).cant_rad) > kLevel_rad) {
+    return "the line has cant there, and tracks cross where it has none";
+  }
+  const auto track = TrackNear(s_m, place_m.y());
+  if (track && !IsFree(*track, s_m - kHalf_m, s_m + kHalf_m)) {
+    return "a turnout lies in the crossing there, and there are no slips";
+  }
+  return "one of the tracks that cross there is not made";
+}
+
 bool TrackNetwork::IsOnGround(double s_m, double d_m) const {
   constexpr double kEdge_m = kFormationEdge_m + 0.5;  // The ground is known every 5 m.
   return ground_.RoomAt_m(s_m, d_m) >= kEdge_m;
@@ -183,6 +287,7 @@ void TrackNetwork::Add(TrackDraft draft) {
   for (const TurnoutSite& turnout : draft.turnouts) {
     joined_.push_back(JoinedSectionOf(tracks_[turnout.track].course, draft.course, turnout));
   }
+  for (const TrackCrossing& crossing : draft.crossings) joined_.push_back(crossing.close);
   tracks_.push_back(std::move(draft));
 }
 

@@ -17,6 +17,10 @@ constexpr double kSharpestArc_per_m = 1.0 / 120.0;
 /// An arc of 250 m costs 1.
 constexpr double kUsualArc_m = 250.0;
 
+/// A cut is this far from where a track comes too near to others, and sought in these steps.
+constexpr double kCutMargin_m = 1.0;
+constexpr double kCutStep_m = 0.5;
+
 double Squared(double value) {
   return value * value;
 }
@@ -74,7 +78,8 @@ std::optional<TurnoutChoice> ChoiceAt(const TrackNetwork& network,
   if (!through) return std::nullopt;
   BranchCourse branch(course, s_m, !meeting.opens_ahead);
   branch.AddTurnout(place.geometry, SignOf(*spec.side), *through);
-  TurnoutChoice choice{.spec = spec, .behind = branch.EndTowardsRising()};
+  TurnoutChoice choice{
+      .spec = spec, .behind = branch.EndTowardsRising(), .track_slope = course.OffsetAt(s_m).slope};
   const double guess_m = choice.behind.x_m - fit.plan.start.x_m;
   const Foot foot =
       FootOn(fit.course, fit.plan.length_m(), {choice.behind.x_m, choice.behind.y_m}, guess_m);
@@ -126,24 +131,50 @@ struct Pairing {
   const TurnoutChoice* end{};
   bool is_direct{};
   double cost{};
+  double end_shift_m = 0.0;  ///< By which the turnout at the end is moved along its track.
 };
+
+/// Two turnouts of which the branches lead to each other, without or with a shift of the second one
+/// within the steps at which turnouts are sought, so that no sharp arcs make up for these.
+std::optional<Pairing> DirectPairing(const TurnoutChoice& begin, const TurnoutChoice& end) {
+  constexpr double kLongest_m = 250.0;
+  constexpr double kLeast_m = 0.5;
+  constexpr double kMostShift_m = 0.6;
+  const auto arcs_to = [&](double shift_m) -> std::optional<Biarc> {
+    PlanPoint to = end.behind;
+    to.x_m += shift_m;
+    to.y_m += shift_m * end.track_slope;
+    const double between_m = to.x_m - begin.behind.x_m;
+    if (between_m <= kLeast_m || between_m >= kLongest_m) return std::nullopt;
+    const auto arcs = BiarcBetween(begin.behind, to);
+    return arcs && arcs->sharpest_per_m() <= kSharpestArc_per_m ? arcs : std::nullopt;
+  };
+  double shift_m = 0.0;
+  auto arcs = arcs_to(shift_m);
+  if (!arcs) {
+    // To where the chord has the mean of both headings: with equal ones, the way is straight.
+    const double slope = std::tan(0.5 * (begin.behind.heading_rad + end.behind.heading_rad));
+    const double off_m =
+        end.behind.y_m - begin.behind.y_m - slope * (end.behind.x_m - begin.behind.x_m);
+    shift_m = RoundedTo(off_m / (slope - end.track_slope), 1e3);
+    if (std::abs(shift_m) > kMostShift_m) return std::nullopt;
+    arcs = arcs_to(shift_m);
+  }
+  if (!arcs) return std::nullopt;
+  const double between_m = end.behind.x_m + shift_m - begin.behind.x_m;
+  return Pairing{&begin, &end, true,
+                 begin.off_cost + end.off_cost + Squared(arcs->sharpest_per_m() * kUsualArc_m) +
+                     Squared(between_m / 100.0),
+                 shift_m};
+}
 
 std::vector<Pairing> Pairings(const std::vector<TurnoutChoice>& begins,
                               const std::vector<TurnoutChoice>& ends) {
-  constexpr double kLongestDirect_m = 250.0;
   std::vector<Pairing> pairings;
   for (const TurnoutChoice& begin : begins) {
     for (const TurnoutChoice& end : ends) {
       const double off_cost = begin.off_cost + end.off_cost;
-      const double between_m = end.behind.x_m - begin.behind.x_m;
-      if (between_m > 0.5 && between_m < kLongestDirect_m) {
-        const auto arcs = BiarcBetween(begin.behind, end.behind);
-        if (arcs && arcs->sharpest_per_m() <= kSharpestArc_per_m) {
-          pairings.push_back({&begin, &end, true,
-                              off_cost + Squared(arcs->sharpest_per_m() * kUsualArc_m) +
-                                  Squared(between_m / 100.0)});
-        }
-      }
+      if (const auto direct = DirectPairing(begin, end)) pairings.push_back(*direct);
       if (begin.has_join && end.has_join && begin.join_m < end.join_m) {
         pairings.push_back({&begin, &end, false, off_cost + begin.join_cost + end.join_cost});
       }
@@ -208,6 +239,20 @@ double RunFit::OutOfClothoid_m(double at_m, bool backwards) const {
   return at_m;
 }
 
+double RunFit::EndBefore_m(double conflict_s_m, double most_m) const {
+  double at_m = most_m;
+  while (at_m > 0.0 && course.At(at_m).x_m > conflict_s_m - kCutMargin_m) at_m -= kCutStep_m;
+  return OutOfClothoid_m(at_m, true);
+}
+
+double RunFit::BeginBehind_m(double conflict_s_m) const {
+  double at_m = 0.0;
+  while (at_m < plan.length_m() && course.At(at_m).x_m < conflict_s_m + kCutMargin_m) {
+    at_m += kCutStep_m;
+  }
+  return OutOfClothoid_m(at_m, false);
+}
+
 std::vector<TurnoutChoice> TurnoutChoices(const TrackNetwork& network,
                                           const TrackRun& run,
                                           const RunFit& fit,
@@ -221,9 +266,14 @@ std::vector<TurnoutChoice> TurnoutChoices(const TrackNetwork& network,
   const auto wished = static_cast<double>(TurnoutIndexFor(SpeedOfRun_kmph(run, meeting.s_m)));
   constexpr double kAside_m = 28.0;
   const double reach_m = run.points_m.back().x() - run.points_m.front().x();
-  const double aside_s_m = meeting.s_m + forwards * std::min(kAside_m, 0.5 * reach_m);
-  if (!track.Has(aside_s_m)) return choices;
-  const double aside_m = OffsetOf_m(run.points_m, aside_s_m) - track.course.OffsetAt(aside_s_m).d_m;
+  // Where the map has the run beside the track by less than either is off, farther ahead.
+  double aside_m = 0.0;
+  for (double ahead_m = std::min(kAside_m, 0.5 * reach_m); ahead_m < reach_m; ahead_m += 10.0) {
+    const double aside_s_m = meeting.s_m + forwards * ahead_m;
+    if (!track.Has(aside_s_m)) return choices;
+    aside_m = OffsetOf_m(run.points_m, aside_s_m) - track.course.OffsetAt(aside_s_m).d_m;
+    if (std::abs(aside_m) >= kLeastAside_m) break;
+  }
   if (std::abs(aside_m) < kLeastAside_m) return choices;
   // The branch of 1:14-760 is 0.52 m aside there.
   constexpr double kSlender_m = 0.4;
@@ -275,6 +325,9 @@ std::vector<TrackSpec> TracksBetween(const RunFit& fit,
       }
       spec.begin = pairing.begin->spec;
       spec.end = pairing.end->spec;
+      if (pairing.end_shift_m != 0.0) {
+        spec.end->s_m = RoundedTo(*spec.end->s_m + pairing.end_shift_m, 1e3);
+      }
       specs.push_back(std::move(spec));
       constexpr std::size_t kMost = 150;
       if (specs.size() == kMost) break;

@@ -50,15 +50,21 @@ struct RunFit {
   }
   /// The nearest length that does not lie in a clothoid, forwards or backwards.
   [[nodiscard]] double OutOfClothoid_m(double at_m, bool backwards) const;
+  /// The length, not above another one, at which it is cut before a chainage where it comes too
+  /// near to others.
+  [[nodiscard]] double EndBefore_m(double conflict_s_m, double most_m) const;
+  /// The length from which on it lies behind such a chainage.
+  [[nodiscard]] double BeginBehind_m(double conflict_s_m) const;
 };
 
 /// A turnout for the end of a run, and where from there the run is as it was fitted.
 struct TurnoutChoice {
   TurnoutSpec spec;
-  PlanPoint behind;    ///< The end of its branch, heading towards rising chainage.
-  double off_cost{};   ///< How far it lies from the map, and from what the speed asks for.
-  double join_m{};     ///< Length of the fit at which the track follows it.
-  double join_cost{};  ///< Of the two arcs between.
+  PlanPoint behind;      ///< The end of its branch, heading towards rising chainage.
+  double track_slope{};  ///< Of the track in which it lies.
+  double off_cost{};     ///< How far it lies from the map, and from what the speed asks for.
+  double join_m{};       ///< Length of the fit at which the track follows it.
+  double join_cost{};    ///< Of the two arcs between.
   bool has_join = false;
 };
 

@@ -194,6 +194,13 @@ std::optional<std::size_t> ItemOf(std::string_view pointer, std::string_view lis
   return error == std::errc() ? std::optional(item) : std::nullopt;
 }
 
+std::optional<std::size_t> TrackNamed(const LineWorld& world, const std::string& name) {
+  const auto found = std::ranges::find_if(
+      world.tracks, [&](const WorldTrack& track) { return track.draft.spec.name == name; });
+  if (found == world.tracks.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - world.tracks.begin());
+}
+
 ErrorList FaultsOf(const AlignmentSpec& alignment,
                    const std::optional<std::filesystem::path>& elevation,
                    const LineWorld& world) {
@@ -201,6 +208,7 @@ ErrorList FaultsOf(const AlignmentSpec& alignment,
   spec.alignment = alignment;
   spec.tracks.clear();
   for (const WorldTrack& track : world.tracks) spec.tracks.push_back(track.draft.spec);
+  spec.diamond_crossings = world.crossings;
   spec.structures = world.structures;
   if (elevation) spec.terrain.elevation = ElevationSpec{.file = elevation->string()};
   // The scenario brings labels and materials.
@@ -241,7 +249,10 @@ std::optional<std::string> MakeStand(const AlignmentSpec& alignment,
     for (const Fault& fault : errors.faults()) {
       const std::string reason =
           "it " + fault.rule + (fault.value.empty() ? "" : " (got " + fault.value + ")");
-      const auto track = ItemOf(fault.place, "/world/tracks/");
+      const auto crossing = ItemOf(fault.place, "/world/diamond_crossings/");
+      // Of a crossing, the track goes that came last.
+      const auto track = crossing ? TrackNamed(world, world.crossings[*crossing].tracks.back())
+                                  : ItemOf(fault.place, "/world/tracks/");
       const auto structure = ItemOf(fault.place, "/world/structures/");
       if (structure && structures.insert(*structure).second) {
         world.left_out.push_back(LeftOutOf(world.structures[*structure], reason));
@@ -265,6 +276,9 @@ std::optional<std::string> MakeStand(const AlignmentSpec& alignment,
         world.left_out.push_back(
             {"switch", made.s_m, made.s_m, "its branch cannot stand", made.node});
         return true;
+      });
+      std::erase_if(world.crossings, [&](const DiamondCrossingSpec& crossing) {
+        return std::ranges::count(crossing.tracks, name) > 0;
       });
     }
     EraseNumbered(tracks, world.tracks);

@@ -76,14 +76,15 @@ class BesideALine : public ::testing::Test {
   void Make() {
     const TrackLine track = FindLines(map_, 1000.0).front();
     runs_east_ = map_.nodes[track.nodes.front()].place_m.x() < 1000.0;
-    const ImportedLine line = ImportLine(map_, track, {});
-    world_ = MakeLineWorld(map_, track, line);
-    AddSideTracks(map_, track, line, {}, world_);
+    line_ = ImportLine(map_, track, {});
+    world_ = MakeLineWorld(map_, track, line_);
+    AddSideTracks(map_, track, line_, {}, world_);
     for (const WorldTrack& made : world_.tracks) tracks_.push_back(JsonOf(made.draft.spec));
   }
 
   RailMap map_;
   bool runs_east_ = true;
+  ImportedLine line_;
   LineWorld world_;
   std::vector<WorldJson> tracks_;
 };
@@ -171,6 +172,49 @@ TEST_F(BesideALine, EverySwitchOfADoubleTrackWithASidingIsATurnout) {
                           DoubleNear(1206.5, kOff_m)));
   EXPECT_THAT(TangentsOn_x_m("running_1"),
               ElementsAre(DoubleNear(647.0, kOff_m), DoubleNear(903.0, kOff_m)));
+}
+
+/// From a track 4.7 m to the left of the line to one on its right, with turnouts 1:9-190 whose
+/// nodes are 4 m behind the tips of their blades: their arcs are 21.05 m long and lead 1.162 m
+/// aside.
+class AcrossALine : public BesideALine {
+ protected:
+  void AddTracks(bool has_node) {
+    Add({{100.0, 4.7}, {951.2, 4.7}, {1900.0, 4.7}}, {{"maxspeed", "80"}});
+    Add({{100.0, -4.7}, {1048.8, -4.7}, {1900.0, -4.7}}, {{"maxspeed", "80"}});
+    std::vector<Eigen::Vector2d> points_m = {
+        {951.2, 4.7}, {968.2, 3.538}, {1000.0, 0.0}, {1031.8, -3.538}, {1048.8, -4.7}};
+    if (!has_node) points_m.erase(points_m.begin() + 2);
+    Add(points_m, {{"service", "crossover"}});
+  }
+};
+
+TEST_F(AcrossALine, ACrossoverHasADiamondWhereTheMapHasANode) {
+  AddTracks(true);
+  Make();
+  ASSERT_THAT(world_.crossings, SizeIs(1));
+  EXPECT_THAT(world_.crossings[0].tracks, ElementsAre("main", "crossover_1"));
+  EXPECT_THAT(world_.switches, SizeIs(3));
+  EXPECT_EQ(std::ranges::count(world_.left_out, "switch", &LeftOut::what), 0);
+  EXPECT_EQ(MakeStand(line_.alignment, std::nullopt, world_), std::nullopt);
+  ASSERT_THAT(world_.crossings, SizeIs(1));
+  WorldSpec spec;
+  spec.tracks.clear();
+  for (const WorldTrack& track : world_.tracks) spec.tracks.push_back(track.draft.spec);
+  spec.diamond_crossings = world_.crossings;
+  const Network network = MakeNetwork(spec, Alignment(line_.alignment).length_m());
+  ASSERT_THAT(network.diamonds, SizeIs(1));
+  // A turnout is sought in steps of 1 m, by which the crossing is moved. Points are fitted to 0.3
+  // m, the crossing's and those 31.8 m beside it.
+  EXPECT_NEAR(network.diamonds[0].s_m, 1000.0, 2.0);
+  EXPECT_NEAR(std::abs(network.diamonds[0].angle_rad), std::atan(1.0 / 9.0), 2.0 * 0.3 / 31.8);
+}
+
+TEST_F(AcrossALine, ACrossoverWithoutANodeThereIsOnAnotherLevelAndCut) {
+  AddTracks(false);
+  Make();
+  EXPECT_THAT(world_.crossings, SizeIs(0));
+  EXPECT_EQ(MakeStand(line_.alignment, std::nullopt, world_), std::nullopt);
 }
 
 TEST_F(BesideALine, ACrossoverMoreSlenderThanAnyTurnoutBeginsAndEndsWithinItself) {
