@@ -1,7 +1,10 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <Eigen/Core>
 #include <algorithm>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -18,13 +21,18 @@ namespace railcast {
 /// 1200 m.
 class MadeMap {
  public:
-  /// A track at y_m, with other tags between 800 and 1200 m.
-  void AddTrack(double y_m, const MapTags& middle_tags) {
-    // Only the track at y = 0 is a line of its own.
-    const double inset_m = y_m == 0.0 ? 0.0 : 100.0;
-    AddWay({{inset_m, y_m}, {400.0, y_m}, {800.0, y_m}}, {});
-    AddWay({{800.0, y_m}, {1000.0, y_m}, {1200.0, y_m}}, middle_tags);
-    AddWay({{1200.0, y_m}, {1600.0, y_m}, {2000.0 - inset_m, y_m}}, {});
+  struct Track {
+    double y_m{};
+    MapTags middle_tags;  ///< Between 800 and 1200 m.
+  };
+  MadeMap(std::initializer_list<Track> tracks) {
+    for (const auto& [y_m, middle_tags] : tracks) {
+      // Only the track at y = 0 is a line of its own.
+      const double inset_m = y_m == 0.0 ? 0.0 : 100.0;
+      AddWay({{inset_m, y_m}, {400.0, y_m}, {800.0, y_m}}, {});
+      AddWay({{800.0, y_m}, {1000.0, y_m}, {1200.0, y_m}}, middle_tags);
+      AddWay({{1200.0, y_m}, {1600.0, y_m}, {2000.0 - inset_m, y_m}}, {});
+    }
   }
   void AddWay(const std::vector<Eigen::Vector2d>& points_m, MapTags tags) {
     tags.insert({{"railway", "rail"}, {"maxspeed", "80"}});
@@ -93,6 +101,13 @@ class MadeMap {
     }
     return all;
   }
+  /// The structure of a type of which there must be one.
+  template <class Structure>
+  [[nodiscard]] Structure Only() const {
+    const std::vector<Structure> all = All<Structure>();
+    EXPECT_EQ(all.size(), 1U);
+    return all.empty() ? Structure{} : all[0];
+  }
   /// Why things of a kind were left out.
   [[nodiscard]] std::vector<std::string> ReasonsFor(const std::string& what) const {
     std::vector<std::string> reasons;
@@ -109,5 +124,12 @@ class MadeMap {
   ImportedLine line_;
   LineWorld world_;
 };
+
+/// A map of these tracks and nothing else, made.
+[[nodiscard]] inline MadeMap ImportedTracks(std::initializer_list<MadeMap::Track> tracks) {
+  MadeMap map(tracks);
+  map.Make();
+  return map;
+}
 
 }  // namespace railcast

@@ -17,6 +17,7 @@
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/extras/import/made_map.h"
 #include "tests/generator/run_command.h"
+#include "tests/support/exits_with.h"
 
 namespace railcast {
 namespace {
@@ -51,9 +52,7 @@ void AddAccountedSiding(MadeMap& map) {
 }
 
 TEST(MapAccount, BooksEachMetreOfATrackAndItsTunnelOnce) {
-  MadeMap map;
-  map.AddTrack(0.0, {{"tunnel", "yes"}});
-  map.AddTrack(4.5, {{"tunnel", "yes"}});
+  MadeMap map{{0.0, {{"tunnel", "yes"}}}, {4.5, {{"tunnel", "yes"}}}};
   map.AddWay({{300.0, 200.0}, {500.0, 200.0}}, {});
   map.Make();
   ExpectWhole(map);
@@ -64,8 +63,7 @@ TEST(MapAccount, BooksEachMetreOfATrackAndItsTunnelOnce) {
 }
 
 TEST(MapAccount, CountsTheSwitchesThatAreTurnouts) {
-  MadeMap map;
-  map.AddTrack(0.0, {});
+  MadeMap map{{0.0, {}}};
   AddAccountedSiding(map);
   map.AddWay({{1600.0, 0.0}, {1610.0, 2.0}}, {});
   map.Make();
@@ -75,8 +73,7 @@ TEST(MapAccount, CountsTheSwitchesThatAreTurnouts) {
 }
 
 TEST(MapAccount, HasTheReasonOfTheWorldThatCameNearest) {
-  MadeMap map;
-  map.AddTrack(0.0, {});
+  MadeMap map{{0.0, {}}};
   map.AddWay({{1600.0, 0.0}, {1610.0, 2.0}}, {});
   map.Make();
   LineWorld other = map.world();
@@ -90,7 +87,7 @@ TEST(MapAccount, HasTheReasonOfTheWorldThatCameNearest) {
 }
 
 TEST(MapAccount, TurnsNoSignalRoundWhereTwoWaysMeetInTwoPoints) {
-  MadeMap map;
+  MadeMap map{};
   map.AddWay({{0.0, 0.0}, {799.7, 0.0}, {800.0, 0.0}}, {});
   map.AddWay({{800.0, 0.0}, {2000.0, 0.0}}, {});
   map.AddThing({{1000.0, 0.0}}, {{"railway", "signal"}, {"railway:signal:main", "DE-ESO:ks"}});
@@ -101,7 +98,7 @@ TEST(MapAccount, TurnsNoSignalRoundWhereTwoWaysMeetInTwoPoints) {
 }
 
 TEST(MapAccount, KnowsHowTheLastStepOfAClosedWayIsDrawn) {
-  MadeMap map;
+  MadeMap map{};
   map.AddWay({{0.0, 0.0}, {100.0, 0.0}, {0.0, 100.0}, {0.0, 0.0}}, {});
   EXPECT_TRUE(IsDrawnForward(map.map(), {0, 2, 0}));
   EXPECT_FALSE(IsDrawnForward(map.map(), {0, 0, 2}));
@@ -109,8 +106,7 @@ TEST(MapAccount, KnowsHowTheLastStepOfAClosedWayIsDrawn) {
 }
 
 TEST(MapAccount, SaysWhyATrackBesideALineIsNotMade) {
-  MadeMap map;
-  map.AddTrack(0.0, {});
+  MadeMap map{{0.0, {}}};
   map.AddWay({{300.0, 20.0}, {310.0, 20.0}}, {});
   map.AddWay({{500.0, 20.0}, {510.0, 40.0}}, {});
   map.AddWay({{700.0, 50.0}, {720.0, 80.0}}, {});
@@ -134,10 +130,7 @@ TEST(MapAccount, SaysWhyATrackBesideALineIsNotMade) {
 }
 
 TEST(MapAccount, CountsWhatATrackThatCannotStandTakesWithIt) {
-  MadeMap map;
-  map.AddTrack(0.0, {});
-  map.AddTrack(4.5, {});
-  map.Make();
+  MadeMap map = ImportedTracks({{0.0, {}}, {4.5, {}}});
   map.world().tracks[1].draft.spec.offset_m = 2.0;
   ASSERT_EQ(MakeStand(map.line().alignment, std::nullopt, map.world()), std::nullopt);
   EXPECT_NEAR(map.Sum("running track").in_worlds, 2000.0, 1e-6);
@@ -145,9 +138,7 @@ TEST(MapAccount, CountsWhatATrackThatCannotStandTakesWithIt) {
 }
 
 TEST(MapAccount, HasThePlatformEdgesThatTracksOfTheMapPass) {
-  MadeMap map;
-  map.AddTrack(0.0, {});
-  map.AddTrack(10.0, {});
+  MadeMap map{{0.0, {}}, {10.0, {}}};
   map.AddPlatformArea(900.0, 1100.0, 2.2, 7.6);
   map.AddPlatformArea(300.0, 400.0, -9.0, -6.0);
   map.Make();
@@ -157,9 +148,7 @@ TEST(MapAccount, HasThePlatformEdgesThatTracksOfTheMapPass) {
 }
 
 TEST(MapAccount, CountsCrossingsSignalsAndBufferStops) {
-  MadeMap map;
-  map.AddTrack(0.0, {});
-  map.AddTrack(4.5, {});
+  MadeMap map{{0.0, {}}, {4.5, {}}};
   map.AddThing({{1900.0, 4.5}}, {{"railway", "buffer_stop"}});
   map.AddThing({{500.0, 0.0}}, {{"railway", "level_crossing"}});
   map.AddThing({{501.0, 4.5}}, {{"railway", "crossing"}});
@@ -227,8 +216,7 @@ TEST(MapAccount, HasSevenFieldsAlsoOfMapsWhosePlacesHaveCommas) {
   const std::filesystem::path out = directory.path() / "out";
   WriteFileWhole(file, R"(<gpx><trk><trkseg><trkpt lat="48.2" lon="15.60"/>
 <trkpt lat="48.2" lon="15.61"/><trkpt lat="48.2" lon="15.62"/></trkseg></trk></gpx>)");
-  const Ended run = Generate("import " + file.string() + " --out " + out.string());
-  ASSERT_EQ(run.status, 0) << run.said;
+  ASSERT_THAT(Generate("import " + file.string() + " --out " + out.string()), ExitsWith(0));
   const std::vector<std::vector<std::string>> rows = CsvRows(out / "account.csv");
   ASSERT_FALSE(rows.empty());
   EXPECT_EQ(rows[0].at(1), "line 1, trkseg");
@@ -241,9 +229,9 @@ TEST_P(AccountOfSharedMap, IsWhole) {
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent";
   const TemporaryDirectory directory;
   const std::filesystem::path out = directory.path() / "out";
-  const Ended run =
-      Generate("import " + file.string() + " " + GetParam().options + " --out " + out.string());
-  ASSERT_EQ(run.status, 0) << run.said;
+  ASSERT_THAT(
+      Generate("import " + file.string() + " " + GetParam().options + " --out " + out.string()),
+      ExitsWith(0));
   double on_map_m = 0.0;
   double in_worlds_m = 0.0;
   double num_switches = 0.0;

@@ -25,9 +25,7 @@ PlatformSpec Of(const std::string& track, const MadeMap& map) {
 }
 
 TEST(Platforms, AnIslandHasAnEdgeAtBothTracks) {
-  MadeMap map;
-  map.AddTrack(0.0, {});
-  map.AddTrack(10.0, {});
+  MadeMap map{{0.0, {}}, {10.0, {}}};
   map.AddPlatformArea(900.0, 1100.0, 2.2, 7.6);
   map.Make();
   ASSERT_THAT(map.All<PlatformSpec>(), SizeIs(2));
@@ -42,34 +40,28 @@ TEST(Platforms, AnIslandHasAnEdgeAtBothTracks) {
 }
 
 TEST(Platforms, BelongToTheTrackThatTheyRunAlong) {
-  MadeMap map;
-  map.AddTrack(0.0, {});
-  map.AddTrack(4.5, {});
+  MadeMap map{{0.0, {}}, {4.5, {}}};
   map.AddPlatformArea(900.0, 1100.0, 6.5, 9.0);
   map.Make();
-  const std::vector<PlatformSpec> platforms = map.All<PlatformSpec>();
-  ASSERT_THAT(platforms, SizeIs(1));
-  EXPECT_EQ(platforms[0].track, "running_1");
-  EXPECT_EQ(platforms[0].side, map.north());
-  EXPECT_NEAR(platforms[0].width_m, 2.5, kPlatformOff_m);
+  const PlatformSpec platform = map.Only<PlatformSpec>();
+  EXPECT_EQ(platform.track, "running_1");
+  EXPECT_EQ(platform.side, map.north());
+  EXPECT_NEAR(platform.width_m, 2.5, kPlatformOff_m);
 }
 
 TEST(Platforms, OfPublicTransportAreTakenButNotThoseOfBuses) {
-  MadeMap map;
-  map.AddTrack(0.0, {});
+  MadeMap map{{0.0, {}}};
   map.AddThing({{500.0, 2.0}, {600.0, 2.0}}, {{"public_transport", "platform"}});
   map.AddThing({{700.0, 2.0}, {800.0, 2.0}}, {{"public_transport", "platform"}, {"bus", "yes"}});
   map.Make();
-  const std::vector<PlatformSpec> platforms = map.All<PlatformSpec>();
-  ASSERT_THAT(platforms, SizeIs(1));
-  EXPECT_THAT(map.PlacesOf_x_m(platforms[0]),
+  const PlatformSpec platform = map.Only<PlatformSpec>();
+  EXPECT_THAT(map.PlacesOf_x_m(platform),
               ElementsAre(DoubleNear(500.0, kPlatformOff_m), DoubleNear(600.0, kPlatformOff_m)));
-  EXPECT_EQ(platforms[0].width_m, PlatformSpec{}.width_m) << "a line does not tell";
+  EXPECT_EQ(platform.width_m, PlatformSpec{}.width_m) << "a line does not tell";
 }
 
 TEST(Platforms, StandWhereTheFitIsFarFromTheMapToo) {
-  MadeMap map;
-  map.AddTrack(0.0, {});
+  MadeMap map{{0.0, {}}};
   map.AddWay({{100.0, 2.2}, {500.0, 2.2}, {1900.0, 2.2}}, {});  // Moved to 3.25 m.
   map.AddPlatformArea(900.0, 1100.0, 3.9, 6.0);
   map.Make();
@@ -81,8 +73,7 @@ TEST(Platforms, StandWhereTheFitIsFarFromTheMapToo) {
 }
 
 TEST(Platforms, FollowTheWidthOfTheirOutline) {
-  MadeMap map;
-  map.AddTrack(0.0, {});
+  MadeMap map{{0.0, {}}};
   map.AddThing({{900.0, 2.0}, {1100.0, 2.0}, {1100.0, 8.0}, {900.0, 4.0}, {900.0, 2.0}},
                {{"railway", "platform"}});
   map.Make();
@@ -97,9 +88,7 @@ TEST(Platforms, FollowTheWidthOfTheirOutline) {
 }
 
 TEST(Platforms, ThatLieAcrossATrackSayAcrossWhich) {
-  MadeMap map;
-  map.AddTrack(0.0, {});
-  map.AddTrack(4.5, {});
+  MadeMap map{{0.0, {}}, {4.5, {}}};
   map.AddPlatformArea(900.0, 1100.0, 2.0, 7.0);
   map.Make();
   EXPECT_THAT(map.All<PlatformSpec>(), IsEmpty());
@@ -107,9 +96,7 @@ TEST(Platforms, ThatLieAcrossATrackSayAcrossWhich) {
 }
 
 TEST(Platforms, WithoutATrackOrRoomOrWhereAnotherIsAreLeftOut) {
-  MadeMap map;
-  map.AddTrack(0.0, {});
-  map.AddTrack(10.0, {});
+  MadeMap map{{0.0, {}}, {10.0, {}}};
   map.AddPlatformArea(300.0, 400.0, 30.0, 33.0);
   map.AddPlatformArea(500.0, 600.0, -2.3, -2.0);
   map.AddPlatformArea(700.0, 800.0, -5.0, -2.0);

@@ -40,10 +40,7 @@ WorldTrack TrackBeside(const std::string& name, double offset_m) {
 }
 
 TEST(StandingWorld, IsLeftAsItIsIfCheckHasNothingAgainstIt) {
-  MadeMap map;
-  map.AddTrack(0.0, {{"tunnel", "yes"}});
-  map.AddTrack(4.5, {});
-  map.Make();
+  MadeMap map = ImportedTracks({{0.0, {{"tunnel", "yes"}}}, {4.5, {}}});
   EXPECT_EQ(MakeStand(map.line().alignment, std::nullopt, map.world()), std::nullopt);
   EXPECT_EQ(map.world().tracks.size(), 2U);
   EXPECT_THAT(map.All<TunnelSpec>(), SizeIs(1));
@@ -51,9 +48,7 @@ TEST(StandingWorld, IsLeftAsItIsIfCheckHasNothingAgainstIt) {
 }
 
 TEST(StandingWorld, LosesTheTracksThatCheckRefusesWithAllThatStandsOnThem) {
-  MadeMap map;
-  map.AddTrack(0.0, {});
-  map.Make();
+  MadeMap map = ImportedTracks({{0.0, {}}});
   LineWorld& world = map.world();
   world.tracks.push_back(TrackBeside("far", 82.5));
   world.tracks.push_back(TrackBeside("near", 2.0));
@@ -77,9 +72,7 @@ TEST(StandingWorld, LosesTheTracksThatCheckRefusesWithAllThatStandsOnThem) {
 }
 
 TEST(StandingWorld, IsNoneIfTheLineItselfIsRefused) {
-  MadeMap map;
-  map.AddTrack(0.0, {});
-  map.Make();
+  MadeMap map = ImportedTracks({{0.0, {}}});
   AlignmentSpec alignment = map.line().alignment;
   alignment.speed_limits_kmph = {{0.0, -1.0}};
   const auto fault = MakeStand(alignment, std::nullopt, map.world());
@@ -156,8 +149,7 @@ void AddSiding(MadeMap& map) {
 }
 
 TEST(ClearStructures, CutsAPlatformWhereATrackRunsThroughIt) {
-  MadeMap map;
-  map.AddTrack(0.0, {});
+  MadeMap map{{0.0, {}}};
   AddSiding(map);
   map.Make();
   PlatformSpec platform;
@@ -166,9 +158,8 @@ TEST(ClearStructures, CutsAPlatformWhereATrackRunsThroughIt) {
   platform.side = map.north();
   map.world().structures = {platform};
   ClearStructures(map.line().alignment, map.world());
-  const std::vector<PlatformSpec> platforms = map.All<PlatformSpec>();
-  ASSERT_THAT(platforms, SizeIs(1));
-  const std::vector<double> ends_m = map.PlacesOf_x_m(platforms[0]);
+  const PlatformSpec left = map.Only<PlatformSpec>();
+  const std::vector<double> ends_m = map.PlacesOf_x_m(left);
   EXPECT_NEAR(ends_m[0], 900.0, 0.01);
   // Platforms must be farther from the turnout's curve than this one is. It is cut 1 m before the
   // turnout begins, 10.5 m before the tangents meet, or a little later.
@@ -179,10 +170,7 @@ TEST(ClearStructures, CutsAPlatformWhereATrackRunsThroughIt) {
 }
 
 TEST(ClearStructures, LeavesOutAThingThatStandsInAGauge) {
-  MadeMap map;
-  map.AddTrack(0.0, {});
-  map.AddTrack(4.5, {});
-  map.Make();
+  MadeMap map = ImportedTracks({{0.0, {}}, {4.5, {}}});
   SignalSpec signal;
   signal.s_m = 1000.0;
   signal.side = map.north();
@@ -200,8 +188,7 @@ TEST(ClearStructures, LeavesOutAThingThatStandsInAGauge) {
 }
 
 TEST(ClearStructures, LeavesOutWhatAWorldRefuses) {
-  MadeMap map;
-  map.AddTrack(0.0, {});
+  MadeMap map{{0.0, {}}};
   AddSiding(map);
   map.Make();
   LevelCrossingSpec crossing;
@@ -214,18 +201,14 @@ TEST(ClearStructures, LeavesOutWhatAWorldRefuses) {
 }
 
 TEST(ClearStructures, KeepsTunnelsWhoseLiningsTouchOutsideOfAllGauges) {
-  MadeMap map;
-  map.AddTrack(0.0, kTunnelTags);
-  map.AddTrack(10.0, kTunnelTags);
-  map.Make();
+  MadeMap map = ImportedTracks({{0.0, kTunnelTags}, {10.0, kTunnelTags}});
   ClearStructures(map.line().alignment, map.world());
   EXPECT_THAT(map.All<TunnelSpec>(), SizeIs(2));
   EXPECT_THAT(map.ReasonsFor("tunnel"), IsEmpty());
 }
 
 TEST(ClearStructures, KeepsWhatIsBetweenTwoPlacesThatAreInTheWay) {
-  MadeMap map;
-  map.AddTrack(0.0, {});
+  MadeMap map{{0.0, {}}};
   // A loop from 600 to 1400 m to the north.
   std::vector<Eigen::Vector2d> points_m = {{600.0, 0.0}};
   for (double x_m = 5.0; x_m < 40.5; x_m += 5.0) points_m.emplace_back(600.0 + x_m, x_m / 9.0);
@@ -255,10 +238,7 @@ TEST(ClearStructures, KeepsWhatIsBetweenTwoPlacesThatAreInTheWay) {
 TEST(ClearStructures, LeavesOutOnlyThePortalsWhereTheseStandInAGauge) {
   // The lining is 5.6 m from the axis, the portal 7.6 m, and the gauge 1.575 m.
   for (const auto& [y_m, has_portals] : {std::pair(7.5, false), std::pair(9.5, true)}) {
-    MadeMap map;
-    map.AddTrack(0.0, kTunnelTags);
-    map.AddTrack(y_m, {});
-    map.Make();
+    MadeMap map = ImportedTracks({{0.0, kTunnelTags}, {y_m, {}}});
     ClearStructures(map.line().alignment, map.world());
     ASSERT_THAT(map.All<TunnelSpec>(), SizeIs(1)) << y_m;
     EXPECT_EQ(map.All<TunnelSpec>()[0].has_portals, has_portals) << y_m;

@@ -23,47 +23,34 @@ const MapTags kOnBridge = {{"bridge", "yes"}};
 /// Chainages of points on a straight are fitted to 0.1 m and written in centimetres.
 constexpr double kOff_m = 0.2;
 
+/// Matches MadeMap::PlacesOf_x_m().
+auto RunsFrom_x_m(double begin_x_m, double end_x_m) {
+  return ElementsAre(DoubleNear(begin_x_m, kOff_m), DoubleNear(end_x_m, kOff_m));
+}
+
 TEST(WayStructures, TracksBesideEachOtherShareATunnel) {
-  MadeMap map;
-  map.AddTrack(0.0, kInTunnel);
-  map.AddTrack(4.5, kInTunnel);
-  map.Make();
-  const std::vector<TunnelSpec> tunnels = map.All<TunnelSpec>();
-  ASSERT_THAT(tunnels, SizeIs(1));
-  EXPECT_EQ(tunnels[0].track, "main");
-  EXPECT_THAT(map.PlacesOf_x_m(tunnels[0]),
-              ElementsAre(DoubleNear(800.0, kOff_m), DoubleNear(1200.0, kOff_m)));
+  MadeMap map = ImportedTracks({{0.0, kInTunnel}, {4.5, kInTunnel}});
+  const TunnelSpec tunnel = map.Only<TunnelSpec>();
+  EXPECT_EQ(tunnel.track, "main");
+  EXPECT_THAT(map.PlacesOf_x_m(tunnel), RunsFrom_x_m(800.0, 1200.0));
   EXPECT_THAT(map.ReasonsFor("tunnel"), IsEmpty());
 }
 
 TEST(WayStructures, ATunnelIsAboutTheTrackThatHasIt) {
-  MadeMap map;
-  map.AddTrack(0.0, {});
-  map.AddTrack(12.0, kInTunnel);
-  map.Make();
-  const std::vector<TunnelSpec> tunnels = map.All<TunnelSpec>();
-  ASSERT_THAT(tunnels, SizeIs(1));
-  EXPECT_EQ(tunnels[0].track, "running_1");
-  EXPECT_THAT(map.PlacesOf_x_m(tunnels[0]),
-              ElementsAre(DoubleNear(800.0, kOff_m), DoubleNear(1200.0, kOff_m)));
+  MadeMap map = ImportedTracks({{0.0, {}}, {12.0, kInTunnel}});
+  const TunnelSpec tunnel = map.Only<TunnelSpec>();
+  EXPECT_EQ(tunnel.track, "running_1");
+  EXPECT_THAT(map.PlacesOf_x_m(tunnel), RunsFrom_x_m(800.0, 1200.0));
 }
 
 TEST(WayStructures, ATunnelOfTheLineTakesInATrackThatHasNoneOnTheMap) {
-  MadeMap map;
-  map.AddTrack(0.0, kInTunnel);
-  map.AddTrack(4.5, {});
-  map.Make();
-  const std::vector<TunnelSpec> tunnels = map.All<TunnelSpec>();
-  ASSERT_THAT(tunnels, SizeIs(1));
-  EXPECT_THAT(map.PlacesOf_x_m(tunnels[0]),
-              ElementsAre(DoubleNear(800.0, kOff_m), DoubleNear(1200.0, kOff_m)));
+  MadeMap map = ImportedTracks({{0.0, kInTunnel}, {4.5, {}}});
+  const TunnelSpec tunnel = map.Only<TunnelSpec>();
+  EXPECT_THAT(map.PlacesOf_x_m(tunnel), RunsFrom_x_m(800.0, 1200.0));
 }
 
 TEST(WayStructures, ThereIsNoTunnelInWhichTheLineWouldRunThoughItIsOutside) {
-  MadeMap map;
-  map.AddTrack(0.0, {});
-  map.AddTrack(4.5, kInTunnel);
-  map.Make();
+  MadeMap map = ImportedTracks({{0.0, {}}, {4.5, kInTunnel}});
   EXPECT_THAT(map.All<TunnelSpec>(), IsEmpty());
   EXPECT_THAT(map.ReasonsFor("tunnel"),
               ElementsAre("track main, which has none on the map, would run in it"));
@@ -76,8 +63,7 @@ TEST(WayStructures, ThereIsNoTunnelInWhichTheLineWouldRunThoughItIsOutside) {
 /// millimetres before, at or behind a whole metre.
 TEST(WayStructures, TracksThatComeNearerThanTwoLiningsNeedLoseNoTunnel) {
   for (double end_y_m = 6.0; end_y_m < 6.025; end_y_m += 0.01) {
-    MadeMap map;
-    map.AddTrack(0.0, kInTunnel);
+    MadeMap map{{0.0, kInTunnel}};
     map.AddWay({{100.0, 20.0 + end_y_m}, {450.0, 13.0 + end_y_m}, {800.0, 6.0 + end_y_m}}, {});
     map.AddWay({{800.0, 6.0 + end_y_m}, {1000.0, 2.0 + end_y_m}, {1100.0, end_y_m}}, kInTunnel);
     map.AddWay({{1100.0, end_y_m}, {1600.0, end_y_m}, {1900.0, end_y_m}}, {});
@@ -92,10 +78,7 @@ TEST(WayStructures, TracksThatComeNearerThanTwoLiningsNeedLoseNoTunnel) {
 /// track is 1.575 m wide.
 TEST(WayStructures, TracksTooNearForTwoLiningsShareOne) {
   for (const auto& [y_m, num_tunnels] : {std::pair(6.5, 1), {7.1, 1}, {7.5, 2}, {10.0, 2}}) {
-    MadeMap map;
-    map.AddTrack(0.0, kInTunnel);
-    map.AddTrack(y_m, kInTunnel);
-    map.Make();
+    MadeMap map = ImportedTracks({{0.0, kInTunnel}, {y_m, kInTunnel}});
     ClearStructures(map.line().alignment, map.world());
     EXPECT_THAT(map.All<TunnelSpec>(), SizeIs(num_tunnels)) << y_m;
     const AccountRow tunnels = map.Sum("tunnel");
@@ -106,8 +89,7 @@ TEST(WayStructures, TracksTooNearForTwoLiningsShareOne) {
 
 /// Tracks that part in a tunnel, from 4.5 m to 24.5 m at 1:15, pass all distances.
 TEST(WayStructures, NothingOfATunnelIsLostWhereItsTracksPart) {
-  MadeMap map;
-  map.AddTrack(0.0, kInTunnel);
+  MadeMap map{{0.0, kInTunnel}};
   map.AddWay({{100.0, 4.5}, {400.0, 4.5}, {800.0, 4.5}}, {});
   map.AddWay({{800.0, 4.5},
               {860.0, 4.5},
@@ -143,8 +125,7 @@ TEST(WayStructures, NothingOfATunnelIsLostWhereItsTracksPart) {
 
 /// A loop of 200 m makes only its own stretch of the line's tunnel wide.
 TEST(WayStructures, ATunnelIsWideOnlyWhereItsTracksNeedIt) {
-  MadeMap map;
-  map.AddTrack(0.0, kInTunnel);
+  MadeMap map{{0.0, kInTunnel}};
   map.AddWay({{1000.0, 6.5}, {1100.0, 6.5}, {1200.0, 6.5}}, kInTunnel);
   map.Make();
   const std::vector<TunnelSpec> tunnels = map.All<TunnelSpec>();
@@ -155,12 +136,8 @@ TEST(WayStructures, ATunnelIsWideOnlyWhereItsTracksNeedIt) {
 }
 
 TEST(WayStructures, ABridgeCarriesTracksBesideEachOtherAndTheRestHaveTheirOwn) {
-  MadeMap map;
-  map.AddTrack(0.0, kOnBridge);
-  map.AddTrack(4.5, kOnBridge);
-  map.AddTrack(20.0, kOnBridge);
-  map.AddTrack(24.5, kOnBridge);
-  map.Make();
+  MadeMap map =
+      ImportedTracks({{0.0, kOnBridge}, {4.5, kOnBridge}, {20.0, kOnBridge}, {24.5, kOnBridge}});
   const std::vector<BridgeSpec> bridges = map.All<BridgeSpec>();
   ASSERT_THAT(bridges, SizeIs(2));
   EXPECT_EQ(bridges[0].track, "main");
@@ -170,8 +147,7 @@ TEST(WayStructures, ABridgeCarriesTracksBesideEachOtherAndTheRestHaveTheirOwn) {
 }
 
 TEST(WayStructures, WhatATrackHasBeyondASharedBridgeIsItsOwn) {
-  MadeMap map;
-  map.AddTrack(0.0, kOnBridge);
+  MadeMap map{{0.0, kOnBridge}};
   map.AddWay({{500.0, 4.5}, {600.0, 4.5}, {900.0, 4.5}}, kOnBridge);
   map.AddWay({{900.0, 4.5}, {1200.0, 4.5}, {1500.0, 4.5}}, {});
   map.Make();
@@ -188,18 +164,14 @@ TEST(WayStructures, TramsAndUndergroundsInTunnelsHaveNoBallast) {
                                       {{{"railway", "subway"}}, false},
                                       {{{"railway", "tram"}, {"railway:ballastless", "no"}}, false},
                                       {{{"railway", "rail"}, {"tunnel", "yes"}}, false}}) {
-    MadeMap map;
-    map.AddTrack(0.0, tags);
-    map.Make();
+    MadeMap map = ImportedTracks({{0.0, tags}});
     EXPECT_THAT(map.All<SlabTrackSpec>(), SizeIs(is_slab ? 1 : 0));
   }
 }
 
 TEST(WayStructures, SlabTrackAndThirdRailBelongToTheirTrack) {
-  MadeMap map;
-  map.AddTrack(0.0, {});
-  map.AddTrack(4.5, {{"railway:ballastless", "yes"}, {"electrified", "rail"}});
-  map.Make();
+  MadeMap map =
+      ImportedTracks({{0.0, {}}, {4.5, {{"railway:ballastless", "yes"}, {"electrified", "rail"}}}});
   ASSERT_THAT(map.All<SlabTrackSpec>(), SizeIs(1));
   EXPECT_EQ(map.All<SlabTrackSpec>()[0].track, "running_1");
   ASSERT_THAT(map.All<ThirdRailSpec>(), SizeIs(1));
