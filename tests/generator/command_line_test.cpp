@@ -7,6 +7,7 @@
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/project_folder.h"
 #include "tests/generator/run_command.h"
+#include "tests/support/exits_with.h"
 
 namespace railcast {
 namespace {
@@ -21,9 +22,9 @@ TEST(CommandLine, TakesTheNumberOfAFrameAsItsFileHasIt) {
   const TemporaryDirectory directory;
   const std::string scenario = MakeProject(directory.path()).string();
   const auto out = directory.path() / "out";
-  const Ended run = Generate("sequence " + scenario + " --frames 01 --start-frame 000018 --out " +
-                             out.string() + " --seed 0010 --threads 01 --format pcd");
-  EXPECT_EQ(run.status, 0) << run.said;
+  EXPECT_THAT(Generate("sequence " + scenario + " --frames 01 --start-frame 000018 --out " +
+                       out.string() + " --seed 0010 --threads 01 --format pcd"),
+              ExitsWith(0));
   EXPECT_TRUE(std::filesystem::exists(out / "frames/000018.pcd"));
   EXPECT_NE(ReadFileWhole(out / "manifest.json").find("\"seed\": 10,"), std::string::npos);
   const Ended traced = Generate("trace " + scenario + " --frame 000018 --firing 0000");
@@ -77,14 +78,12 @@ TEST(CommandLine, RefusesFramesWhoseStampsDoNotFitInto64Bits) {
   const std::string rule =
       ": must lead to no frame after 92233720, since the next begins after 292 years at 0.01 Hz "
       "(got frame ";
-  const Ended traced = Generate("trace " + scenario + " --frame 100000000 --firing 0");
-  EXPECT_EQ(traced.status, 1);
-  EXPECT_EQ(traced.said, "--frame" + rule + "100000000)\n");
+  EXPECT_THAT(Generate("trace " + scenario + " --frame 100000000 --firing 0"),
+              ExitsWith(1, "--frame" + rule + "100000000)\n"));
   const auto out = directory.path() / "out";
-  const Ended run =
-      Generate("sequence " + scenario + " --start-frame 92233720 --frames 2 --out " + out.string());
-  EXPECT_EQ(run.status, 1);
-  EXPECT_EQ(run.said, "--start-frame, --frames" + rule + "92233721)\n");
+  EXPECT_THAT(
+      Generate("sequence " + scenario + " --start-frame 92233720 --frames 2 --out " + out.string()),
+      ExitsWith(1, "--start-frame, --frames" + rule + "92233721)\n"));
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
@@ -110,9 +109,8 @@ TEST(CommandLine, PrintsNoArgumentRaw) {
       "\"trace\", \"dataset\", \"merge\", \"survey\" or \"import\" (got a\\u001b[2Jb)");
   ExpectUsageError("sequence a.json --out b \"--$(printf '\\033[2J')\"",
                    "unknown option (got --\\u001b[2J)");
-  const Ended run = Generate("check a.json \"$(printf 'b\\033[2J')\"");
-  EXPECT_EQ(run.status, 2);
-  EXPECT_EQ(run.said.find('\033'), std::string::npos) << run.said;
+  EXPECT_THAT(Generate("check a.json \"$(printf 'b\\033[2J')\""),
+              ExitsWith(2, testing::Not(testing::HasSubstr("\033"))));
 }
 
 TEST(CommandLine, SaysInOneFormWhatIsMissingOrTooMuch) {
@@ -156,10 +154,10 @@ TEST(CommandLine, NamesTheOptionWhoseFileHasNoName) {
 
 TEST(CommandLine, TakesAnUnknownFieldForWrongUsage) {
   for (const std::string command : {"sequence a.json --out b", "stream a.json"}) {
-    const Ended run = Generate(command + " --fields labl");
-    EXPECT_EQ(run.status, 2);
-    EXPECT_EQ(run.said.find("--fields: unknown field, the nearest is \"label\" (got \"labl\")"), 0U)
-        << run.said;
+    EXPECT_THAT(
+        Generate(command + " --fields labl"),
+        ExitsWith(2, testing::StartsWith(
+                         "--fields: unknown field, the nearest is \"label\" (got \"labl\")")));
   }
 }
 

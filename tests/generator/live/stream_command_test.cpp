@@ -11,6 +11,7 @@
 #include "railcast/scenario.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/live/live_process.h"
+#include "tests/support/exits_with.h"
 
 namespace railcast {
 namespace {
@@ -28,9 +29,7 @@ TEST(Stream, SendsTheFramesThatSequenceWrites) {
       ASSERT_TRUE(frame.has_value());
       frames.push_back(std::move(*frame));
     }
-    const Ended ended = stream.Wait();
-    EXPECT_EQ(ended.status, 0) << ended.said;
-    EXPECT_NE(ended.said.find("coarse: 4 frames, "), std::string::npos) << ended.said;
+    EXPECT_THAT(stream.Wait(), ExitsWith(0, testing::HasSubstr("coarse: 4 frames, ")));
     EXPECT_EQ(receiver.counts().stream.lost_packets, 0U);
     const auto out = folder.path() / ("out_" + pacing);
     ASSERT_EQ(Generate("sequence " + scenario + " --frames 4 --out " + out.string()).status, 0);
@@ -70,9 +69,9 @@ TEST(Stream, WritesTheSameCaptureEachTimeAtAnyThreadCount) {
   const std::string scenario = CoarseScenario(folder.path());
   const auto capture = [&](const std::string& name, const std::string& options) {
     const auto file = folder.path() / name;
-    const Ended ended =
-        Generate("stream " + scenario + " --duration 1 --pcap " + file.string() + " " + options);
-    EXPECT_EQ(ended.status, 0) << ended.said;
+    EXPECT_THAT(
+        Generate("stream " + scenario + " --duration 1 --pcap " + file.string() + " " + options),
+        ExitsWith(0));
     return ReadFileWhole(file);
   };
   const std::string once = capture("a.pcap", "--threads 1");
@@ -90,10 +89,8 @@ TEST(Stream, EndsInOrderOnASignal) {
   Stream stream(scenario + " --to " + EndpointText(receiver.at()) + NotedIn(pid_file));
   ASSERT_TRUE(receiver.Next(kPatience_ms).has_value());
   Interrupt(pid_file);
-  const Ended ended = stream.Wait();
-  EXPECT_EQ(ended.status, 0) << ended.said;
-  EXPECT_NE(ended.said.find(" late; "), std::string::npos) << ended.said;
-  EXPECT_NE(ended.said.find("lateness"), std::string::npos) << ended.said;
+  EXPECT_THAT(stream.Wait(), ExitsWith(0, testing::AllOf(testing::HasSubstr(" late; "),
+                                                         testing::HasSubstr("lateness"))));
 }
 
 TEST(Stream, SendsSeveralSensorsOfOneVehicleByOneClock) {
@@ -132,10 +129,8 @@ TEST(Stream, SendsSeveralSensorsOfOneVehicleByOneClock) {
   std::vector<ReceivedFrame> roof_frames;
   while (front_frames.size() < 6) front_frames.push_back(front.Next(kPatience_ms).value());
   while (roof_frames.size() < 3) roof_frames.push_back(roof.Next(kPatience_ms).value());
-  const Ended ended = stream.Wait();
-  EXPECT_EQ(ended.status, 0) << ended.said;
-  EXPECT_NE(ended.said.find("front: 6 frames, "), std::string::npos) << ended.said;
-  EXPECT_NE(ended.said.find("roof: 3 frames, "), std::string::npos) << ended.said;
+  EXPECT_THAT(stream.Wait(), ExitsWith(0, testing::AllOf(testing::HasSubstr("front: 6 frames, "),
+                                                         testing::HasSubstr("roof: 3 frames, "))));
   for (std::size_t i = 0; i < roof_frames.size(); ++i) {
     // Both sensors have the same mounting, so at the same time they have the same pose.
     const StreamHeader& a = front_frames[2 * i].header;

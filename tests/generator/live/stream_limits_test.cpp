@@ -9,6 +9,7 @@
 #include "tests/core/io/small_disk.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/live/live_process.h"
+#include "tests/support/exits_with.h"
 
 // Tests how a live run ends at a limit: of the track, of the disk and of the machine's speed.
 
@@ -38,10 +39,9 @@ std::string FastScenario(const std::filesystem::path& folder) {
 TEST(Stream, SaysWhyItEndsWhereTheTrackDoes) {
   const TemporaryDirectory folder;
   // 5 m remain at 10 m/s and 20 Hz, so frame 10 begins at the end of the track.
-  const Ended ended = Generate("stream " + ScenarioFrom(folder.path(), "595"));
-  EXPECT_EQ(ended.status, 1);
-  EXPECT_NE(ended.said.find("coarse: 10 frames"), std::string::npos) << ended.said;
-  EXPECT_NE(ended.said.find("leaves track \"main\""), std::string::npos) << ended.said;
+  EXPECT_THAT(Generate("stream " + ScenarioFrom(folder.path(), "595")),
+              ExitsWith(1, testing::AllOf(testing::HasSubstr("coarse: 10 frames"),
+                                          testing::HasSubstr("leaves track \"main\""))));
 }
 
 TEST(Stream, RefusesADurationBeyondTheTrackAsSequenceDoes) {
@@ -49,19 +49,16 @@ TEST(Stream, RefusesADurationBeyondTheTrackAsSequenceDoes) {
   const std::string scenario = ScenarioFrom(folder.path(), "595");
   const auto capture = folder.path() / "a.pcap";
   const std::string begin = "stream " + scenario + " --pcap " + capture.string();
-  const Ended refused = Generate(begin + " --duration 0.55");
-  EXPECT_EQ(refused.status, 1);
-  EXPECT_EQ(refused.said,
-            scenario +
-                ": /vehicle/motion: leaves track \"main\", from 0 to 600 m, at frame 10 "
-                "(0.5 s)\n");
-  EXPECT_EQ(refused.said,
-            Generate("sequence " + scenario + " --frames 11 --out " + folder.path().string() + "/o")
-                .said);
+  const std::string fault = scenario +
+                            ": /vehicle/motion: leaves track \"main\", from 0 to 600 m, at frame "
+                            "10 (0.5 s)\n";
+  EXPECT_THAT(Generate(begin + " --duration 0.55"), ExitsWith(1, fault));
+  EXPECT_THAT(
+      Generate("sequence " + scenario + " --frames 11 --out " + folder.path().string() + "/o"),
+      ExitsWith(1, fault));
   EXPECT_FALSE(std::filesystem::exists(capture));
   EXPECT_FALSE(std::filesystem::exists(capture.string() + ".part"));
-  const Ended done = Generate(begin + " --duration 0.5");
-  EXPECT_EQ(done.status, 0) << done.said;
+  EXPECT_THAT(Generate(begin + " --duration 0.5"), ExitsWith(0));
   EXPECT_TRUE(std::filesystem::exists(capture));
   // With commands the journey is not known in advance, so the run is not refused.
   const Ended commanded =
@@ -108,16 +105,16 @@ TEST(Stream, SaysThatItCannotKeepUpAndDropsFramesIfAskedTo) {
                       " || [ $i = 600 ]; do i=$((i+1)); sleep 0.1; done; " +
                       "kill -INT $!; wait $!; status=$?; cat " + log + "; exit $status");
   };
-  const Ended late = run_until("cannot keep up: .* s behind after ", "");
-  EXPECT_EQ(late.status, 0) << late.said;
-  EXPECT_NE(late.said.find(" s behind after "), std::string::npos) << late.said;
-  EXPECT_NE(late.said.find("frames late; --drop-late drops frames instead\n"), std::string::npos);
-  EXPECT_EQ(late.said.find(" dropped; "), std::string::npos) << late.said;
-  const Ended dropping = run_until("cannot keep up: .* frames dropped after ", " --drop-late");
-  EXPECT_EQ(dropping.status, 0) << dropping.said;
-  EXPECT_NE(dropping.said.find(" frames dropped after "), std::string::npos) << dropping.said;
-  EXPECT_NE(dropping.said.find(" dropped; "), std::string::npos) << dropping.said;
-  EXPECT_EQ(dropping.said.find(" s behind"), std::string::npos) << dropping.said;
+  EXPECT_THAT(
+      run_until("cannot keep up: .* s behind after ", ""),
+      ExitsWith(
+          0, testing::AllOf(testing::HasSubstr(" s behind after "),
+                            testing::HasSubstr("frames late; --drop-late drops frames instead\n"),
+                            testing::Not(testing::HasSubstr(" dropped; ")))));
+  EXPECT_THAT(run_until("cannot keep up: .* frames dropped after ", " --drop-late"),
+              ExitsWith(0, testing::AllOf(testing::HasSubstr(" frames dropped after "),
+                                          testing::HasSubstr(" dropped; "),
+                                          testing::Not(testing::HasSubstr(" s behind")))));
 }
 
 TEST(Stream, FailsForLateFramesIfAskedToAndSumsUpAsJson) {
@@ -148,8 +145,7 @@ TEST(Stream, SendsInTimeWhatItDoesNotDropAsItIs) {
                 EndpointText(receiver.at()));
   const auto out = folder.path() / "out";
   ASSERT_EQ(Generate("sequence " + scenario + " --frames 4 --out " + out.string()).status, 0);
-  const Ended ended = stream.Wait();
-  EXPECT_EQ(ended.status, 0) << ended.said;
+  EXPECT_THAT(stream.Wait(), ExitsWith(0));
   const auto first = receiver.Next(kPatience_ms);
   ASSERT_TRUE(first.has_value());
   for (auto frame = first; frame; frame = receiver.Next(0)) {

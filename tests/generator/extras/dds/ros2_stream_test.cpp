@@ -22,6 +22,7 @@
 #include "tests/core/extras/dds/free_domain.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/live/live_process.h"
+#include "tests/support/exits_with.h"
 
 // What `stream` sends to ROS 2, as Fast DDS receives it, and the commands that Fast DDS gives.
 
@@ -102,9 +103,7 @@ TEST(Ros2Stream, BringsEveryMessageOfEveryFrameToFastDds) {
   for (std::uint32_t i = 0; i < kNumFrames; ++i) {
     EXPECT_NE(controller.Say(R"({"command":"step"})").find("\"ok\":true"), std::string::npos);
   }
-  const Ended ended = stream.Wait();
-  EXPECT_EQ(ended.status, 0) << ended.said;
-  EXPECT_NE(ended.said.find("coarse: 12 frames, 0 late; "), std::string::npos) << ended.said;
+  EXPECT_THAT(stream.Wait(), ExitsWith(0, testing::HasSubstr("coarse: 12 frames, 0 late; ")));
   for (const auto& [name, reader] : readers) {
     SCOPED_TRACE(name);
     ExpectSame(sent.at(name), reader->WaitFor(sent.at(name).size(), /*timeout_ms=*/1000));
@@ -200,12 +199,10 @@ TEST(Ros2Stream, LetsANodeBrakeForTheWagonAhead) {
   for (MessageBytes* message : {&too_short, &hostile, &to_standstill}) {
     EXPECT_TRUE(brake.write(message));
   }
-  const Ended ended = stream.Wait();
-  EXPECT_EQ(ended.status, 0) << ended.said;
-  EXPECT_NE(ended.said.find("commands on /brake: 1 done, 2 refused; the last one: "
-                            "geometry_msgs/msg/TwistStamped: "),
-            std::string::npos)
-      << ended.said;
+  EXPECT_THAT(
+      stream.Wait(),
+      ExitsWith(0, testing::HasSubstr("commands on /brake: 1 done, 2 refused; the last one: "
+                                      "geometry_msgs/msg/TwistStamped: ")));
   const std::string command = ReadFileWhole(log);
   EXPECT_NE(command.find(R"({"command":"brake","deceleration_mps2":2.0})"), std::string::npos)
       << command;
@@ -333,8 +330,7 @@ TEST(Ros2Stream, StampsMessagesWithTheTimeOfDayIfAskedTo) {
   }
   const auto transforms = ros::FromCdr<ros::TfMessage>(statics.WaitFor(1).at(0));
   EXPECT_NEAR(SecondsOf(transforms.transforms.at(0).header.stamp), begin_s, 60.0);
-  const Ended ended = stream.Wait();
-  EXPECT_EQ(ended.status, 0) << ended.said;
+  EXPECT_THAT(stream.Wait(), ExitsWith(0));
 }
 
 TEST(Ros2Stream, TakesItsDomainFromTheEnvironmentUnlessToldOtherwise) {

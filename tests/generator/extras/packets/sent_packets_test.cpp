@@ -12,6 +12,7 @@
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/live/live_process.h"
+#include "tests/support/exits_with.h"
 
 namespace railcast {
 namespace {
@@ -49,12 +50,11 @@ TEST_P(SentPackets, OfACaptureHaveTheFramesThatSequenceWrites) {
   const TemporaryDirectory folder;
   const std::string scenario = ScenarioWith(sensor, folder.path());
   const auto capture = folder.path() / "out.pcap";
-  const Ended streamed = Generate("stream " + scenario + " --protocol " + sensor +
-                                  " --duration 0.3 --pcap " + capture.string());
-  ASSERT_EQ(streamed.status, 0) << streamed.said;
+  ASSERT_THAT(Generate("stream " + scenario + " --protocol " + sensor + " --duration 0.3 --pcap " +
+                       capture.string()),
+              ExitsWith(0));
   const auto out = folder.path() / "out";
-  const Ended written = Generate("sequence " + scenario + " --frames 2 --out " + out.string());
-  ASSERT_EQ(written.status, 0) << written.said;
+  ASSERT_THAT(Generate("sequence " + scenario + " --frames 2 --out " + out.string()), ExitsWith(0));
   const auto turns = ReadAll(capture);
   const auto frames = ReadAll(out);
   ASSERT_EQ(turns.size(), 3U);
@@ -86,9 +86,7 @@ TEST(LivePackets, ArriveAtADecoder) {
   turns.push_back(decoder.TakeUnfinished());
   ASSERT_EQ(turns.size(), 3U);
   for (const SensorTurn& turn : turns) EXPECT_EQ(turn.num_columns(), 2000U);
-  const Ended ended = stream.Wait();
-  EXPECT_EQ(ended.status, 0) << ended.said;
-  EXPECT_NE(ended.said.find("XT16: xt16 to "), std::string::npos) << ended.said;
+  EXPECT_THAT(stream.Wait(), ExitsWith(0, testing::HasSubstr("XT16: xt16 to ")));
 }
 
 }  // namespace

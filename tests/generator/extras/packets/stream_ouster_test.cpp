@@ -13,6 +13,7 @@
 #include "railcast/io/recording.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/live/live_process.h"
+#include "tests/support/exits_with.h"
 #include "tests/support/loopback.h"
 #include "tests/support/ouster_metadata_text.h"
 
@@ -56,9 +57,8 @@ TEST_P(StreamedProfile, IsCapturedAsSequenceWritesItsFrames) {
   const TemporaryDirectory folder;
   const std::string scenario = OusterScenario(folder.path(), GetParam());
   const auto capture = folder.path() / "drive.pcap";
-  const Ended streamed =
-      Generate("stream " + scenario + " --duration 0.3 --pcap " + capture.string());
-  ASSERT_EQ(streamed.status, 0) << streamed.said;
+  ASSERT_THAT(Generate("stream " + scenario + " --duration 0.3 --pcap " + capture.string()),
+              ExitsWith(0));
   const auto out = folder.path() / "out";
   ASSERT_EQ(Generate("sequence " + scenario + " --frames 3 --out " + out.string()).status, 0);
   // The metadata were written beside the capture.
@@ -119,9 +119,7 @@ TEST(StreamOuster, TellsADriverOverHttpWhatItSends) {
   std::vector<SensorTurn> turns;
   EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
   Interrupt(pid_file);
-  const Ended ended = stream.Wait();
-  EXPECT_EQ(ended.status, 0) << ended.said;
-  EXPECT_NE(ended.said.find("HTTP at 127.0.0.1:" + port), std::string::npos) << ended.said;
+  EXPECT_THAT(stream.Wait(), ExitsWith(0, testing::HasSubstr("HTTP at 127.0.0.1:" + port)));
 }
 
 // By PTP, as a driver finds out over HTTP, which IPv6 brings here, too.
@@ -156,9 +154,7 @@ TEST(StreamOuster, StatesAtomicTimeAndThatItIs) {
   EXPECT_LE(ahead_s, 37.0);
   EXPECT_GT(ahead_s, 37.0 - 30.0);
   Interrupt(pid_file);
-  const Ended ended = stream.Wait();
-  EXPECT_EQ(ended.status, 0) << ended.said;
-  EXPECT_NE(ended.said.find("HTTP at [::1]:" + port), std::string::npos) << ended.said;
+  EXPECT_THAT(stream.Wait(), ExitsWith(0, testing::HasSubstr("HTTP at [::1]:" + port)));
 }
 
 // In a network of its own, whose MTU the packets exceed; the kernel counts the fragments.

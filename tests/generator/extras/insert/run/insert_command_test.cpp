@@ -13,6 +13,7 @@
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/extras/insert/run/made_insertion.h"
 #include "tests/generator/run_command.h"
+#include "tests/support/exits_with.h"
 
 namespace railcast {
 namespace {
@@ -43,20 +44,19 @@ class InsertCommand : public testing::Test {
 
 TEST_F(InsertCommand, TellsWithCheckWhatThePlanMeetsAndWritesNothing) {
   Make(2);
-  const Ended ended = Insert("--check");
-  EXPECT_EQ(ended.status, 0);
-  EXPECT_TRUE(ended.said.starts_with(std::string(kRemark) +
-                                     "crate:\n  at chainage 300 m, 0 m left, 0 m above the rails"))
-      << ended.said;
-  EXPECT_NE(ended.said.find("aimed at in 2 of 2 frames"), std::string::npos) << ended.said;
+  EXPECT_THAT(
+      Insert("--check"),
+      ExitsWith(0, testing::AllOf(testing::StartsWith(
+                                      std::string(kRemark) +
+                                      "crate:\n  at chainage 300 m, 0 m left, 0 m above the rails"),
+                                  testing::HasSubstr("aimed at in 2 of 2 frames"))));
   EXPECT_FALSE(exists(out()));
 }
 
 TEST_F(InsertCommand, ChecksTheFramesThatAreWantedAndTakesNoOptionsForFiles) {
   Make(3);
-  const Ended ended = Insert("--check --frames 1..1");
-  EXPECT_EQ(ended.status, 0);
-  EXPECT_NE(ended.said.find("aimed at in 1 of 1 frames"), std::string::npos) << ended.said;
+  EXPECT_THAT(Insert("--check --frames 1..1"),
+              ExitsWith(0, testing::HasSubstr("aimed at in 1 of 1 frames")));
   EXPECT_EQ(Insert("--check --frames 1..3").said,
             std::string(kRemark) + "--frames: must be of the recording's 3 frames (got 1..3)\n");
   EXPECT_EQ(Insert("--check --out " + (run() / "x").string()).status, 1);
@@ -116,12 +116,10 @@ TEST_F(InsertCommand, KeepsPositionsOfANationalGridByTheirOwnFormatAlone) {
   (void)WriteRunPlan(folder_.path(), "", R"({"poses": "standing"})");
   const std::string command =
       "insert " + map.string() + " " + plan().string() + " --points-alone --out " + out().string();
-  const Ended ended = Generate(command + " --format pcd 2>&1");
-  EXPECT_EQ(ended.status, 1);
-  EXPECT_NE(ended.said.find("map.pcd: must keep its positions, which are far from 0 as in a "
-                            "national grid, by --format same (got pcd)\n"),
-            std::string::npos)
-      << ended.said;
+  EXPECT_THAT(Generate(command + " --format pcd 2>&1"),
+              ExitsWith(1, testing::HasSubstr(
+                               "map.pcd: must keep its positions, which are far from 0 as in a "
+                               "national grid, by --format same (got pcd)\n")));
   EXPECT_FALSE(exists(out()));
   EXPECT_EQ(Generate(command).status, 0);
   EXPECT_EQ(ReadFileWhole(out() / "recording/map.pcd"), ReadFileWhole(map));
@@ -133,10 +131,8 @@ TEST_F(InsertCommand, LeavesNothingWhereThePlanDoesNotFitTheRecording) {
   std::string text = ReadFileWhole(plan());
   text.replace(text.find("vir2rail"), std::string("vir2rail").size(), "vlp16");
   WriteFileWhole(plan(), text);
-  const Ended ended = Insert("--out " + out().string());
-  EXPECT_EQ(ended.status, 1);
-  EXPECT_NE(ended.said.find("000000.pcd: its firings cannot be found: "), std::string::npos)
-      << ended.said;
+  EXPECT_THAT(Insert("--out " + out().string()),
+              ExitsWith(1, testing::HasSubstr("000000.pcd: its firings cannot be found: ")));
   EXPECT_FALSE(exists(out()));
 }
 
@@ -157,8 +153,7 @@ TEST_F(InsertCommand, StopsAfterAFrameOnCtrlCAndContinues) {
   ::waitpid(child, &status, 0);
   EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 130);
   EXPECT_FALSE(exists(out() / "manifest.json"));
-  const Ended continued = Insert("--out " + out().string());
-  EXPECT_EQ(continued.status, 0) << continued.said;
+  EXPECT_THAT(Insert("--out " + out().string()), ExitsWith(0));
   const fs::path whole = folder_.path() / "whole";
   EXPECT_EQ(Insert("--out " + whole.string()).status, 0);
   EXPECT_EQ(FilesOf(out()), FilesOf(whole));
