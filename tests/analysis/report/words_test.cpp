@@ -32,12 +32,12 @@ constexpr const char* kWords = R"({
 })";
 
 TEST(Words, FillPlacesAndLeaveOutWhatIsNotSo) {
-  const Section known = SectionOf(
+  const Section known = railcast::SectionOf(
       kWords, "a", {{"what", "b"}, {"is_known", true}, {"num", "2"}, {"lines", "one\n\ntwo"}});
   EXPECT_EQ(known.key, "a");
   EXPECT_EQ(known.title, "A of b");
   EXPECT_THAT(known.paragraphs, ElementsAre("Known.", "There are 2.", "one", "two"));
-  const Section unknown = SectionOf(kWords, "a", {{"is_known", false}, {"num", ""}});
+  const Section unknown = railcast::SectionOf(kWords, "a", {{"is_known", false}, {"num", ""}});
   EXPECT_THAT(unknown.paragraphs, ElementsAre("Unknown."));
 }
 
@@ -47,16 +47,16 @@ TEST(Words, KeepLettersThatHtmlEscapes) {
 }
 
 TEST(Words, GiveTablesTheirColumns) {
-  const Table table = TableOf(kWords, "t", {{"has_share", true}});
+  const Table table = railcast::TableOf(kWords, "t", {{"has_share", true}});
   EXPECT_EQ(table.note, "N");
   EXPECT_TRUE(table.is_open);
   ASSERT_EQ(table.columns.size(), 2U);
   EXPECT_EQ(table.columns[1].unit, "%");
-  EXPECT_EQ(TableOf(kWords, "t").columns.size(), 1U);
+  EXPECT_EQ(railcast::TableOf(kWords, "t").columns.size(), 1U);
 }
 
 TEST(Words, GiveChartsTheirAxesAndSeries) {
-  Table table = TableOf(kWords, "t", {{"has_share", true}});
+  Table table = railcast::TableOf(kWords, "t", {{"has_share", true}});
   table.rows = {{1.0, 10.0}, {2.0, 20.0}};
   const Chart chart = ChartOfTable(kWords, "lines", table);
   EXPECT_EQ(chart.x.title, "Range");
@@ -66,7 +66,7 @@ TEST(Words, GiveChartsTheirAxesAndSeries) {
   ASSERT_EQ(chart.series.size(), 1U);
   EXPECT_EQ(chart.series[0].title, "shares");
   EXPECT_EQ(chart.series[0].points[1].y, 20.0);
-  EXPECT_TRUE(ChartOf(kWords, "lines").series.empty());
+  EXPECT_TRUE(railcast::ChartOf(kWords, "lines").series.empty());
 }
 
 TEST(Words, PutTextsBelowBarsAndNamesBesideLines) {
