@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -204,36 +203,144 @@ struct Inserter::Parts {
   std::optional<CertifySpec> certify{};
   std::optional<ScreenedCertifier> certifier{};
 
-  void UseCertificates(const ScenarioSpec& scenario, double cost_share);
+  void UseCertificates(const ScenarioSpec& scenario, double cost_share) {
+    if (world->objects().empty()) {
+      throw InputError(
+          "--certify: must be left out: the plan has no objects, which rungs differ in");
+    }
+    certifier.emplace(scenario, cost_share, spec.detector, *world);
+    scan.UseVariants(certifier->certifier().variants());
+    certify.emplace(CertifySpec{.cost_share = cost_share, .rungs = certifier->certifier().rungs()});
+    for (const SceneObject& object : world->objects()) {
+      certify->objects.emplace(object.instance, object.name);
+    }
+  }
+
   void PutReturns(const RecordedFirings& firings,
                   const RecordedReturns& returns,
                   const ChangedFiring& changed,
-                  InsertedFrame& inserted) const;
+                  InsertedFrame& inserted) const {
+    const RecordedFrame& before = firings.recorded;
+    RecordedFrame& recorded = inserted.recorded;
+    Frame& frame = recorded.frame;
+    const ScanPattern& pattern = firings.pattern;
+    const std::uint32_t i = changed.firing;
+    const std::size_t first =
+        firings.SlotOfCell(std::size_t{pattern.row[i]} * pattern.columns + pattern.column[i]);
+    for (std::size_t r = 0; r < frame.returns; ++r) {
+      const std::size_t slot = first + r;
+      SlotEdit edit{.slot = static_cast<std::uint32_t>(slot), .from_slot = {}};
+      edit.had_point = HasReturn(before.frame, slot);
+      edit.has_point = r < changed.returns.size();
+      ClearSlot(slot, frame);
+      for (ForeignField& field : recorded.foreign) field.values[slot] = kNaN;
+      if (edit.has_point) {
+        const ReturnNow& now = changed.returns[r];
+        edit.is_added = now.is_added;
+        if (now.is_added) {
+          edit.is_merged = now.screen != kNoScreen;
+          PutAdded(firings, returns, now, slot, recorded);
+          frame.time_ns[slot] = pattern.time_ns[i];
+          frame.ring[slot] = pattern.row[i];
+          frame.column[slot] = pattern.column[i];
+          frame.mixed_share[slot] = changed.mixed_share;
+        } else {
+          edit.from_slot = returns.slots[now.screen];
+          edit.is_weaker = now.intensity_ratio != 1.0F;
+          CopySlot(before, *edit.from_slot, slot, recorded);
+          frame.intensity[slot] *= now.intensity_ratio;
+          frame.power_ratio[slot] *= returns.power_kept[now.screen];
+        }
+      } else if (r == 0) {
+        frame.outcome[slot] = changed.outcome;
+      }
+      frame.return_index[slot] = static_cast<std::uint8_t>(r);
+      frame.return_count[slot] = static_cast<std::uint8_t>(changed.returns.size());
+      const auto lost = std::ranges::find_if(
+          changed.lost, [&](const LostReturn& each) { return returns.slots[each.screen] == slot; });
+      if (lost != changed.lost.end()) {
+        edit.lost_to = lost->outcome;
+        edit.hidden_by = lost->instance;
+      }
+      const bool is_as_before = edit.has_point == edit.had_point &&
+                                (!edit.has_point || (edit.from_slot == slot && !edit.is_weaker &&
+                                                     HasSamePower(before.frame, frame, slot)));
+      if (!is_as_before) inserted.edits.push_back(edit);
+    }
+  }
+
   void PutAdded(const RecordedFirings& firings,
                 const RecordedReturns& returns,
                 const ReturnNow& now,
                 std::size_t slot,
-                RecordedFrame& recorded) const;
+                RecordedFrame& recorded) const {
+    Frame& frame = recorded.frame;
+    const bool is_of_recorded = now.screen != kNoScreen;
+    if (is_of_recorded) CopySlot(firings.recorded, returns.slots[now.screen], slot, recorded);
+    const Vector3 point_m = now.point_m.cast<double>() - recorded.origin_m;
+    frame.x[slot] = static_cast<float>(point_m.x());
+    frame.y[slot] = static_cast<float>(point_m.y());
+    frame.z[slot] = static_cast<float>(point_m.z());
+    frame.range_m[slot] = now.range_m;
+    frame.true_range_m[slot] = now.true_range_m;
+    frame.intensity[slot] =
+        is_of_recorded
+            ? frame.intensity[slot] * now.intensity_ratio
+            : static_cast<float>(static_cast<double>(now.intensity) * scale.per_reflectance);
+    frame.power_ratio[slot] = now.power_ratio;
+    frame.incidence_rad[slot] = now.incidence_rad;
+    frame.footprint_share[slot] = now.footprint_share;
+    frame.outcome[slot] = now.outcome;
+    if (is_of_recorded) return;
+    if (frame.has_velocity) {
+      frame.radial_velocity_mps[slot] = now.velocity.measured_mps;
+      frame.true_radial_velocity_mps[slot] = now.velocity.true_mps;
+    }
+    frame.label[slot] = now.label;
+    frame.instance[slot] = now.instance;
+    frame.material[slot] = now.material;
+  }
+
   void PutFirings(const RecordedFirings& firings,
                   const RecordedReturns& returns,
                   std::vector<ChangedFiring>& changed,
-                  InsertedFrame& inserted) const;
+                  InsertedFrame& inserted) const {
+    const Frame& before = firings.recorded.frame;
+    Frame& frame = inserted.recorded.frame;
+    const bool are_farthest_first = AreFarthestFirst(before);
+    auto next = changed.begin();
+    for (std::uint32_t i = 0; i + 1 < returns.first.size(); ++i) {
+      if (next != changed.end() && next->firing == i) {
+        if (are_farthest_first) SortFarthestFirst(returns.screens, next->returns);
+        PutReturns(firings, returns, *next++, inserted);
+        continue;
+      }
+      for (std::uint32_t k = returns.first[i]; k < returns.first[i + 1]; ++k) {
+        const std::uint32_t slot = returns.slots[k];
+        frame.power_ratio[slot] *= returns.power_kept[k];
+        if (HasSamePower(before, frame, slot)) continue;
+        inserted.edits.push_back(
+            {.slot = slot, .from_slot = slot, .had_point = true, .has_point = true});
+      }
+    }
+  }
+
   [[nodiscard]] std::vector<RecordedObject> ObjectsIn(const Frame& inserted,
                                                       std::int64_t time_ns,
-                                                      const std::vector<ObjectView>& views);
+                                                      const std::vector<ObjectView>& views) {
+    Frame frame = inserted;
+    frame.stamp_ns = time_ns;
+    frame.world_from_sensor = world->WorldFromVehicle(time_ns) * spec.vehicle_from_sensor;
+    frame.world_from_sensor_end =
+        world->WorldFromVehicle(time_ns + frame.duration_ns) * spec.vehicle_from_sensor;
+    const Transform sensor_from_world = frame.world_from_sensor.inverse();
+    std::vector<RecordedObject> objects;
+    for (const ObjectInFrame& object : survey.Describe(frame, views)) {
+      objects.push_back(Recorded(object, sensor_from_world));
+    }
+    return objects;
+  }
 };
-
-void Inserter::Parts::UseCertificates(const ScenarioSpec& scenario, double cost_share) {
-  if (world->objects().empty()) {
-    throw InputError("--certify: must be left out: the plan has no objects, which rungs differ in");
-  }
-  certifier.emplace(scenario, cost_share, spec.detector, *world);
-  scan.UseVariants(certifier->certifier().variants());
-  certify.emplace(CertifySpec{.cost_share = cost_share, .rungs = certifier->certifier().rungs()});
-  for (const SceneObject& object : world->objects()) {
-    certify->objects.emplace(object.instance, object.name);
-  }
-}
 
 Inserter::Inserter(const InsertPlan& plan, int num_threads, std::optional<double> certify) {
   const SimulatorSpec spec = SimulatorSpecOf(plan.scenario);
@@ -257,131 +364,6 @@ bool Inserter::CanCertify(const InsertPlan& plan) {
 
 const std::optional<CertifySpec>& Inserter::certify() const {
   return parts_->certify;
-}
-
-void Inserter::Parts::PutAdded(const RecordedFirings& firings,
-                               const RecordedReturns& returns,
-                               const ReturnNow& now,
-                               std::size_t slot,
-                               RecordedFrame& recorded) const {
-  Frame& frame = recorded.frame;
-  const bool is_of_recorded = now.screen != kNoScreen;
-  if (is_of_recorded) CopySlot(firings.recorded, returns.slots[now.screen], slot, recorded);
-  const Vector3 point_m = now.point_m.cast<double>() - recorded.origin_m;
-  frame.x[slot] = static_cast<float>(point_m.x());
-  frame.y[slot] = static_cast<float>(point_m.y());
-  frame.z[slot] = static_cast<float>(point_m.z());
-  frame.range_m[slot] = now.range_m;
-  frame.true_range_m[slot] = now.true_range_m;
-  frame.intensity[slot] =
-      is_of_recorded
-          ? frame.intensity[slot] * now.intensity_ratio
-          : static_cast<float>(static_cast<double>(now.intensity) * scale.per_reflectance);
-  frame.power_ratio[slot] = now.power_ratio;
-  frame.incidence_rad[slot] = now.incidence_rad;
-  frame.footprint_share[slot] = now.footprint_share;
-  frame.outcome[slot] = now.outcome;
-  if (is_of_recorded) return;
-  if (frame.has_velocity) {
-    frame.radial_velocity_mps[slot] = now.velocity.measured_mps;
-    frame.true_radial_velocity_mps[slot] = now.velocity.true_mps;
-  }
-  frame.label[slot] = now.label;
-  frame.instance[slot] = now.instance;
-  frame.material[slot] = now.material;
-}
-
-void Inserter::Parts::PutReturns(const RecordedFirings& firings,
-                                 const RecordedReturns& returns,
-                                 const ChangedFiring& changed,
-                                 InsertedFrame& inserted) const {
-  const RecordedFrame& before = firings.recorded;
-  RecordedFrame& recorded = inserted.recorded;
-  Frame& frame = recorded.frame;
-  const ScanPattern& pattern = firings.pattern;
-  const std::uint32_t i = changed.firing;
-  const std::size_t first =
-      firings.SlotOfCell(std::size_t{pattern.row[i]} * pattern.columns + pattern.column[i]);
-  for (std::size_t r = 0; r < frame.returns; ++r) {
-    const std::size_t slot = first + r;
-    SlotEdit edit{.slot = static_cast<std::uint32_t>(slot), .from_slot = {}};
-    edit.had_point = HasReturn(before.frame, slot);
-    edit.has_point = r < changed.returns.size();
-    ClearSlot(slot, frame);
-    for (ForeignField& field : recorded.foreign) field.values[slot] = kNaN;
-    if (edit.has_point) {
-      const ReturnNow& now = changed.returns[r];
-      edit.is_added = now.is_added;
-      if (now.is_added) {
-        edit.is_merged = now.screen != kNoScreen;
-        PutAdded(firings, returns, now, slot, recorded);
-        frame.time_ns[slot] = pattern.time_ns[i];
-        frame.ring[slot] = pattern.row[i];
-        frame.column[slot] = pattern.column[i];
-        frame.mixed_share[slot] = changed.mixed_share;
-      } else {
-        edit.from_slot = returns.slots[now.screen];
-        edit.is_weaker = now.intensity_ratio != 1.0F;
-        CopySlot(before, *edit.from_slot, slot, recorded);
-        frame.intensity[slot] *= now.intensity_ratio;
-        frame.power_ratio[slot] *= returns.power_kept[now.screen];
-      }
-    } else if (r == 0) {
-      frame.outcome[slot] = changed.outcome;
-    }
-    frame.return_index[slot] = static_cast<std::uint8_t>(r);
-    frame.return_count[slot] = static_cast<std::uint8_t>(changed.returns.size());
-    const auto lost = std::ranges::find_if(
-        changed.lost, [&](const LostReturn& each) { return returns.slots[each.screen] == slot; });
-    if (lost != changed.lost.end()) {
-      edit.lost_to = lost->outcome;
-      edit.hidden_by = lost->instance;
-    }
-    const bool is_as_before = edit.has_point == edit.had_point &&
-                              (!edit.has_point || (edit.from_slot == slot && !edit.is_weaker &&
-                                                   HasSamePower(before.frame, frame, slot)));
-    if (!is_as_before) inserted.edits.push_back(edit);
-  }
-}
-
-void Inserter::Parts::PutFirings(const RecordedFirings& firings,
-                                 const RecordedReturns& returns,
-                                 std::vector<ChangedFiring>& changed,
-                                 InsertedFrame& inserted) const {
-  const Frame& before = firings.recorded.frame;
-  Frame& frame = inserted.recorded.frame;
-  const bool are_farthest_first = AreFarthestFirst(before);
-  auto next = changed.begin();
-  for (std::uint32_t i = 0; i + 1 < returns.first.size(); ++i) {
-    if (next != changed.end() && next->firing == i) {
-      if (are_farthest_first) SortFarthestFirst(returns.screens, next->returns);
-      PutReturns(firings, returns, *next++, inserted);
-      continue;
-    }
-    for (std::uint32_t k = returns.first[i]; k < returns.first[i + 1]; ++k) {
-      const std::uint32_t slot = returns.slots[k];
-      frame.power_ratio[slot] *= returns.power_kept[k];
-      if (HasSamePower(before, frame, slot)) continue;
-      inserted.edits.push_back(
-          {.slot = slot, .from_slot = slot, .had_point = true, .has_point = true});
-    }
-  }
-}
-
-std::vector<RecordedObject> Inserter::Parts::ObjectsIn(const Frame& inserted,
-                                                       std::int64_t time_ns,
-                                                       const std::vector<ObjectView>& views) {
-  Frame frame = inserted;
-  frame.stamp_ns = time_ns;
-  frame.world_from_sensor = world->WorldFromVehicle(time_ns) * spec.vehicle_from_sensor;
-  frame.world_from_sensor_end =
-      world->WorldFromVehicle(time_ns + frame.duration_ns) * spec.vehicle_from_sensor;
-  const Transform sensor_from_world = frame.world_from_sensor.inverse();
-  std::vector<RecordedObject> objects;
-  for (const ObjectInFrame& object : survey.Describe(frame, views)) {
-    objects.push_back(Recorded(object, sensor_from_world));
-  }
-  return objects;
 }
 
 InsertedFrame Inserter::Insert(const RecordedFirings& firings, std::uint32_t frame_index) {

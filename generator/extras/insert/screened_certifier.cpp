@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 #include "core/certify/rungs_beside.h"
 #include "core/fidelity/effect_search.h"

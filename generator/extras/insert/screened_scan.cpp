@@ -68,6 +68,30 @@ ScanPattern AnyPatternOf(std::uint32_t rows, double rate_hz) {
   return pattern;
 }
 
+ReturnRule RuleFor(const DetectorSpec& detector, std::uint32_t returns) {
+  const EffectSet& effects = detector.effects;
+  const ReceiverSpec& receiver = detector.receiver;
+  return {ModeOf(receiver.return_mode, returns),
+          effects.dead_time ? static_cast<float>(DeadLength_m(receiver)) : 0.0F,
+          effects.saturation ? static_cast<float>(receiver.saturation_power_ratio.value_or(0.0))
+                             : 0.0F};
+}
+
+// Each firing once, in the order in which the pattern would be traced.
+std::vector<std::uint32_t> TracingOrder(const ScanPattern& pattern) {
+  const auto& packets = pattern.packet_order;
+  Check(packets.size() >= pattern.num_firings(), "every firing is in a packet");
+  return {packets.begin(), packets.begin() + static_cast<std::ptrdiff_t>(pattern.num_firings())};
+}
+
+template <typename IsWanted>
+std::vector<std::uint32_t> Those(const std::vector<std::uint32_t>& order,
+                                 const IsWanted& is_wanted) {
+  std::vector<std::uint32_t> those;
+  std::ranges::copy_if(order, std::back_inserter(those), is_wanted);
+  return those;
+}
+
 using WorkOfThreads = tbb::enumerable_thread_specific<BeamTracer::Work>;
 
 }  // namespace
@@ -113,31 +137,231 @@ struct ScreenedScan::Parts {
     std::vector<float>& power_kept;
   };
 
-  void UseRows(std::uint32_t rows, double rate_hz);
+  void UseRows(std::uint32_t rows, double rate_hz) {
+    if (rows == num_rows) return;
+    num_rows = rows;
+    const ScanPattern pattern = AnyPatternOf(rows, rate_hz);
+    const auto use = [&](Way& way) {
+      way.tracer = std::make_unique<const BeamTracer>(way.spec, materials, pattern);
+      DetectorSpec without_dropout = way.spec.detector;
+      without_dropout.effects.sensor_dropout = without_dropout.effects.edge_loss = false;
+      way.unfailing = std::make_unique<const Detector>(
+          without_dropout, DetectorSetting{.num_channels = rows, .snow = {}});
+      way.work = std::make_unique<WorkOfThreads>(
+          [used = way.tracer.get()] { return BeamTracer::Work(*used); });
+      if (way.tracer->casts_beams()) scenes.UseBeams();
+    };
+    use(own);
+    for (Way& way : variants) use(way);
+  }
+
   [[nodiscard]] std::vector<bool> NearObjects(const RecordedScan& recorded,
-                                              double beside_rad) const;
+                                              double beside_rad) const {
+    std::vector<std::size_t> objects(scenes.world().objects().size());
+    std::iota(objects.begin(), objects.end(), std::size_t{0});
+    return BeamsNearObjects(
+        scenes.world(), objects, recorded.pattern,
+        {.stamp_ns = recorded.stamp_ns,
+         .vehicle_from_sensor = own.spec.vehicle_from_sensor * own.spec.nominal_from_true,
+         .beside_rad = beside_rad,
+         .range_max_m = own.spec.detector.range_max_m});
+  }
+
   [[nodiscard]] CastFrame CastOf(const Way& way,
                                  const FrameScene& scene,
                                  const std::vector<Surface>& surfaces,
                                  const Screens& screens,
-                                 std::uint32_t duration_ns) const;
+                                 std::uint32_t duration_ns) const {
+    CastFrame cast{scene.index, scene.poses,    scene,
+                   surfaces,    &scene.wires(), scene.window->window_from_world};
+    if (scene.motion) cast.motion = &*scene.motion;
+    cast.textured = &scene.textured;
+    const DetectorSpec& detector = way.spec.detector;
+    if (detector.effects.spray && HasSpray(detector)) {
+      cast.spray = SprayCloudsOf(scenes.world(), detector.weather, {scene.stamp_ns, duration_ns},
+                                 cast.window_from_world);
+    }
+    cast.mirrors = way.tracer->MirrorsAmong(surfaces, cast.window_from_world);
+    cast.takes_no_rays = true;
+    cast.besides = &screens;
+    return cast;
+  }
 
   enum class Kind { kTraced, kScreens, kEmpty };
   void MakeTile(const Job& job,
                 const FiringTiles& firings,
                 std::size_t tile,
                 Kind kind,
-                std::vector<ChangedFiring>& changed);
-  void Make(Job& job, const std::vector<std::uint32_t>& order, Kind kind);
-  [[nodiscard]] ScreenedFrame MakeFirings(const Way& way, const Wanted& wanted, bool has_views);
+                std::vector<ChangedFiring>& changed) {
+    const BeamTracer& tracer = *job.way.tracer;
+    BeamTracer::Work& mine = job.way.work->local();
+    EchoTiles& echoes = mine.echoes;
+    if (kind == Kind::kTraced) {
+      tracer.MakeEchoes(job.cast, firings, tile, mine);
+    } else {
+      tracer.MakeKnownEchoes(job.cast, firings, tile, mine, [&](EchoTiles& empty) {
+        job.screen_echoes.Put(tracer.detector(), empty);
+      });
+    }
+    job.screen_echoes.Place(echoes);
+    const Detector& detector = kind == Kind::kScreens ? *job.way.unfailing : tracer.detector();
+    detector.Detect({mine.rays, job.world_from_window, SecondsFromNs(job.recorded.stamp_ns)},
+                    echoes);
+    job.screen_echoes.Judge(echoes);
+    firings.MoveToOrigins(tile, echoes);
+    std::array<bool, kTileSize> is_told{};
+    // Beams that were traced in vain are as all others.
+    const auto is_of_kind = [&](std::uint32_t firing) {
+      return kind != Kind::kTraced || job.screens.met(firing) != 0;
+    };
+    const auto tell = [&](std::size_t lane, const EchoTiles::Place& echo) {
+      is_told[lane] = is_told[lane] || kind == Kind::kTraced || job.screen_echoes.IsNews(echo);
+      if (is_of_kind(echo.tile.firing[echo.lane]))
+        job.screen_echoes.TellPower(echo, job.power_kept);
+    };
+    for (std::size_t i = 0; i < echoes.first.num_rays; ++i) tell(i, {echoes.first, i});
+    for (std::size_t i = 0; i < echoes.num_more(); ++i) tell(echoes.beam_of(i), echoes.more(i));
+    for (std::size_t lane = 0; lane < firings.num_firings(tile); ++lane) {
+      if (!is_told[lane] || !is_of_kind(echoes.first.firing[lane])) continue;
+      VelocityOfEcho velocity_of;
+      if (job.velocities) {
+        velocity_of = [&](const EchoTiles::Place& echo) {
+          return job.velocities->Of(echo, lane, mine);
+        };
+      }
+      ChangedFiring composed = job.screen_echoes.Compose(echoes, lane, velocity_of);
+      if (job.screen_echoes.IsChanged(composed)) changed.push_back(std::move(composed));
+    }
+  }
+
+  void Make(Job& job, const std::vector<std::uint32_t>& order, Kind kind) {
+    if (order.empty()) return;
+    const FiringTiles firings(job.recorded.pattern, order);
+    std::vector<std::vector<ChangedFiring>> changed(firings.num_tiles());
+    tbb::parallel_for(std::size_t{0}, firings.num_tiles(),
+                      [&](std::size_t tile) { MakeTile(job, firings, tile, kind, changed[tile]); });
+    for (std::vector<ChangedFiring>& of_tile : changed) {
+      std::ranges::move(of_tile, std::back_inserter(job.changed));
+    }
+  }
+
+  [[nodiscard]] ScreenedFrame MakeFirings(const Way& way, const Wanted& wanted, bool has_views) {
+    ScreenedFrame frame;
+    const auto& [recorded, scene, duration_ns, returns, order, is_near] = wanted;
+    const DetectorSpec& detector = way.spec.detector;
+    ScreenSurfaces surfaces{.all = scene.surfaces(), .alone = {}};
+    const Screens screens =
+        MakeScreens(detector, recorded.first, recorded.returns, first_material, surfaces);
+    const CastFrame cast = CastOf(way, scene, surfaces.all, screens, duration_ns);
+    const ReturnRule rule = RuleFor(detector, returns);
+    const ScreenEchoes screen_echoes(detector, rule, cast, screens, surfaces);
+    Job job{.way = way,
+            .recorded = recorded,
+            .cast = cast,
+            .screens = screens,
+            .screen_echoes = screen_echoes,
+            .velocities = {},
+            .world_from_window = scene.window->window_from_world.inverse(),
+            .changed = frame.firings,
+            .power_kept = frame.power_kept};
+    frame.power_kept.assign(recorded.returns.size(), 1.0F);
+    if (cast.motion != nullptr) job.velocities.emplace(detector, cast);
+    const auto near = Those(order, [&](std::uint32_t firing) { return is_near[firing]; });
+    Make(job, near, Kind::kTraced);
+    if (ChangesEmptyBeams(detector)) {
+      std::vector<bool> is_met(recorded.pattern.num_firings());
+      for (const std::uint32_t firing : near) is_met[firing] = screens.met(firing) != 0;
+      const auto make = [&](Kind kind, bool has_screens) {
+        Make(job,
+             Those(order,
+                   [&](std::uint32_t firing) {
+                     return !is_met[firing] && screens.of(firing).empty() != has_screens;
+                   }),
+             kind);
+      };
+      make(Kind::kScreens, true);
+      make(Kind::kEmpty, false);
+    }
+    std::ranges::sort(frame.firings, {}, &ChangedFiring::firing);
+    if (has_views) frame.views = ViewObjects(job, scene, near);
+    return frame;
+  }
+
   [[nodiscard]] std::vector<std::vector<ChangedFiring>> MakeAnew(
-      const Wanted& all, const std::vector<bool>& is_wanted);
+      const Wanted& wanted, const std::vector<bool>& is_wanted) {
+    const RecordedScan& all = wanted.recorded;
+    // Without the screens of all others, which take longer than the trace of a few.
+    RecordedScan few{.index = all.index,
+                     .stamp_ns = all.stamp_ns,
+                     .pattern = all.pattern,
+                     .first = {0},
+                     .returns = {}};
+    few.first.reserve(all.first.size());
+    for (std::size_t i = 0; i < is_wanted.size(); ++i) {
+      if (is_wanted[i]) {
+        few.returns.insert(few.returns.end(), all.returns.begin() + all.first[i],
+                           all.returns.begin() + all.first[i + 1]);
+      }
+      few.first.push_back(static_cast<std::uint32_t>(few.returns.size()));
+    }
+    const Wanted those{few,
+                       wanted.scene,
+                       wanted.duration_ns,
+                       wanted.returns,
+                       Those(wanted.order, [&](std::uint32_t firing) { return is_wanted[firing]; }),
+                       is_wanted};
+    std::vector<std::vector<ChangedFiring>> changed;
+    for (const Way& way : variants) {
+      changed.push_back(MakeFirings(way, those, false).firings);
+      for (ChangedFiring& firing : changed.back()) {
+        const std::uint32_t shift = all.first[firing.firing] - few.first[firing.firing];
+        for (ReturnNow& now : firing.returns) now.screen += now.screen == kNoScreen ? 0 : shift;
+        for (LostReturn& lost : firing.lost) lost.screen += shift;
+      }
+    }
+    return changed;
+  }
   [[nodiscard]] std::vector<ObjectView> ViewObjects(const Job& job,
                                                     const FrameScene& scene,
-                                                    const std::vector<std::uint32_t>& order);
+                                                    const std::vector<std::uint32_t>& order) {
+    ViewCounter views(job.cast, scenes.world(), scenes.ObjectsAlone(scene));
+    if (!order.empty()) {
+      const FiringTiles firings(job.recorded.pattern, order);
+      tbb::parallel_for(std::size_t{0}, firings.num_tiles(), [&](std::size_t tile) {
+        views.Add(*job.way.tracer, firings, tile, job.way.work->local());
+      });
+    }
+    return views.Total();
+  }
+
   [[nodiscard]] ScreenedFrame Scan(const RecordedScan& recorded,
                                    std::uint32_t returns,
-                                   const Certify& certify);
+                                   const Certify& certify) {
+    const ScanPattern& pattern = recorded.pattern;
+    if (pattern.num_firings() == 0) {
+      ScreenedFrame empty;
+      empty.views.resize(scenes.world().objects().size());
+      return empty;
+    }
+    UseRows(pattern.rows, pattern.rate_hz);
+    const std::uint32_t duration_ns = *std::ranges::max_element(pattern.time_ns);
+    scenes.UseDuration(duration_ns);
+    BegunFrame begun = scenes.Begin(recorded.index, recorded.stamp_ns);
+    const FrameScene& scene = scenes.SceneOf(begun);
+    const double beside_rad = BesideBeam_rad(own.spec.detector);
+    const std::vector<bool> is_near = NearObjects(recorded, beside_rad);
+    const Wanted all{recorded, scene, duration_ns, returns, TracingOrder(pattern), is_near};
+    ScreenedFrame frame = MakeFirings(own, all, true);
+    if (!certify) return frame;
+    double widest_rad = beside_rad;
+    for (const Way& way : variants) {
+      widest_rad = std::max(widest_rad, BesideBeam_rad(way.spec.detector));
+    }
+    // The frame itself traces no others with them, which would move its rays by parts of 1e-7.
+    certify(frame, widest_rad > beside_rad ? NearObjects(recorded, widest_rad) : is_near,
+            [&](const std::vector<bool>& is_wanted) { return MakeAnew(all, is_wanted); });
+    return frame;
+  }
 };
 
 ScreenedScan::ScreenedScan(std::shared_ptr<const World> world,
@@ -182,264 +406,6 @@ ScreenedFrame ScreenedScan::Scan(const RecordedScan& recorded,
                                  const Certify& certify) {
   ScreenedFrame frame;
   parts_->arena.execute([&] { frame = parts_->Scan(recorded, returns, certify); });
-  return frame;
-}
-
-void ScreenedScan::Parts::UseRows(std::uint32_t rows, double rate_hz) {
-  if (rows == num_rows) return;
-  num_rows = rows;
-  const ScanPattern pattern = AnyPatternOf(rows, rate_hz);
-  const auto use = [&](Way& way) {
-    way.tracer = std::make_unique<const BeamTracer>(way.spec, materials, pattern);
-    DetectorSpec without_dropout = way.spec.detector;
-    without_dropout.effects.sensor_dropout = without_dropout.effects.edge_loss = false;
-    way.unfailing = std::make_unique<const Detector>(
-        without_dropout, DetectorSetting{.num_channels = rows, .snow = {}});
-    way.work = std::make_unique<WorkOfThreads>(
-        [used = way.tracer.get()] { return BeamTracer::Work(*used); });
-    if (way.tracer->casts_beams()) scenes.UseBeams();
-  };
-  use(own);
-  for (Way& way : variants) use(way);
-}
-
-namespace {
-
-ReturnRule RuleFor(const DetectorSpec& detector, std::uint32_t returns) {
-  const EffectSet& effects = detector.effects;
-  const ReceiverSpec& receiver = detector.receiver;
-  return {ModeOf(receiver.return_mode, returns),
-          effects.dead_time ? static_cast<float>(DeadLength_m(receiver)) : 0.0F,
-          effects.saturation ? static_cast<float>(receiver.saturation_power_ratio.value_or(0.0))
-                             : 0.0F};
-}
-
-}  // namespace
-
-CastFrame ScreenedScan::Parts::CastOf(const Way& way,
-                                      const FrameScene& scene,
-                                      const std::vector<Surface>& surfaces,
-                                      const Screens& screens,
-                                      std::uint32_t duration_ns) const {
-  CastFrame cast{scene.index, scene.poses,    scene,
-                 surfaces,    &scene.wires(), scene.window->window_from_world};
-  if (scene.motion) cast.motion = &*scene.motion;
-  cast.textured = &scene.textured;
-  const DetectorSpec& detector = way.spec.detector;
-  if (detector.effects.spray && HasSpray(detector)) {
-    cast.spray = SprayCloudsOf(scenes.world(), detector.weather, {scene.stamp_ns, duration_ns},
-                               cast.window_from_world);
-  }
-  cast.mirrors = way.tracer->MirrorsAmong(surfaces, cast.window_from_world);
-  cast.takes_no_rays = true;
-  cast.besides = &screens;
-  return cast;
-}
-
-void ScreenedScan::Parts::MakeTile(const Job& job,
-                                   const FiringTiles& firings,
-                                   std::size_t tile,
-                                   Kind kind,
-                                   std::vector<ChangedFiring>& changed) {
-  const BeamTracer& tracer = *job.way.tracer;
-  BeamTracer::Work& mine = job.way.work->local();
-  EchoTiles& echoes = mine.echoes;
-  if (kind == Kind::kTraced) {
-    tracer.MakeEchoes(job.cast, firings, tile, mine);
-  } else {
-    tracer.MakeKnownEchoes(job.cast, firings, tile, mine, [&](EchoTiles& empty) {
-      job.screen_echoes.Put(tracer.detector(), empty);
-    });
-  }
-  job.screen_echoes.Place(echoes);
-  const Detector& detector = kind == Kind::kScreens ? *job.way.unfailing : tracer.detector();
-  detector.Detect({mine.rays, job.world_from_window, SecondsFromNs(job.recorded.stamp_ns)}, echoes);
-  job.screen_echoes.Judge(echoes);
-  firings.MoveToOrigins(tile, echoes);
-  std::array<bool, kTileSize> is_told{};
-  // Beams that were traced in vain are as all others.
-  const auto is_of_kind = [&](std::uint32_t firing) {
-    return kind != Kind::kTraced || job.screens.met(firing) != 0;
-  };
-  const auto tell = [&](std::size_t lane, const EchoTiles::Place& echo) {
-    is_told[lane] = is_told[lane] || kind == Kind::kTraced || job.screen_echoes.IsNews(echo);
-    if (is_of_kind(echo.tile.firing[echo.lane])) job.screen_echoes.TellPower(echo, job.power_kept);
-  };
-  for (std::size_t i = 0; i < echoes.first.num_rays; ++i) tell(i, {echoes.first, i});
-  for (std::size_t i = 0; i < echoes.num_more(); ++i) tell(echoes.beam_of(i), echoes.more(i));
-  for (std::size_t lane = 0; lane < firings.num_firings(tile); ++lane) {
-    if (!is_told[lane] || !is_of_kind(echoes.first.firing[lane])) continue;
-    VelocityOfEcho velocity_of;
-    if (job.velocities) {
-      velocity_of = [&](const EchoTiles::Place& echo) {
-        return job.velocities->Of(echo, lane, mine);
-      };
-    }
-    ChangedFiring composed = job.screen_echoes.Compose(echoes, lane, velocity_of);
-    if (job.screen_echoes.IsChanged(composed)) changed.push_back(std::move(composed));
-  }
-}
-
-void ScreenedScan::Parts::Make(Job& job, const std::vector<std::uint32_t>& order, Kind kind) {
-  if (order.empty()) return;
-  const FiringTiles firings(job.recorded.pattern, order);
-  std::vector<std::vector<ChangedFiring>> changed(firings.num_tiles());
-  tbb::parallel_for(std::size_t{0}, firings.num_tiles(),
-                    [&](std::size_t tile) { MakeTile(job, firings, tile, kind, changed[tile]); });
-  for (std::vector<ChangedFiring>& of_tile : changed) {
-    std::ranges::move(of_tile, std::back_inserter(job.changed));
-  }
-}
-
-std::vector<ObjectView> ScreenedScan::Parts::ViewObjects(const Job& job,
-                                                         const FrameScene& scene,
-                                                         const std::vector<std::uint32_t>& order) {
-  ViewCounter views(job.cast, scenes.world(), scenes.ObjectsAlone(scene));
-  if (!order.empty()) {
-    const FiringTiles firings(job.recorded.pattern, order);
-    tbb::parallel_for(std::size_t{0}, firings.num_tiles(), [&](std::size_t tile) {
-      views.Add(*job.way.tracer, firings, tile, job.way.work->local());
-    });
-  }
-  return views.Total();
-}
-
-namespace {
-
-// Each firing once, in the order in which the pattern would be traced.
-std::vector<std::uint32_t> TracingOrder(const ScanPattern& pattern) {
-  const auto& packets = pattern.packet_order;
-  Check(packets.size() >= pattern.num_firings(), "every firing is in a packet");
-  return {packets.begin(), packets.begin() + static_cast<std::ptrdiff_t>(pattern.num_firings())};
-}
-
-template <typename IsWanted>
-std::vector<std::uint32_t> Those(const std::vector<std::uint32_t>& order,
-                                 const IsWanted& is_wanted) {
-  std::vector<std::uint32_t> those;
-  std::ranges::copy_if(order, std::back_inserter(those), is_wanted);
-  return those;
-}
-
-}  // namespace
-
-std::vector<bool> ScreenedScan::Parts::NearObjects(const RecordedScan& recorded,
-                                                   double beside_rad) const {
-  std::vector<std::size_t> objects(scenes.world().objects().size());
-  std::iota(objects.begin(), objects.end(), std::size_t{0});
-  return BeamsNearObjects(
-      scenes.world(), objects, recorded.pattern,
-      {.stamp_ns = recorded.stamp_ns,
-       .vehicle_from_sensor = own.spec.vehicle_from_sensor * own.spec.nominal_from_true,
-       .beside_rad = beside_rad,
-       .range_max_m = own.spec.detector.range_max_m});
-}
-
-ScreenedFrame ScreenedScan::Parts::MakeFirings(const Way& way,
-                                               const Wanted& wanted,
-                                               bool has_views) {
-  ScreenedFrame frame;
-  const auto& [recorded, scene, duration_ns, returns, order, is_near] = wanted;
-  const DetectorSpec& detector = way.spec.detector;
-  ScreenSurfaces surfaces{.all = scene.surfaces(), .alone = {}};
-  const Screens screens =
-      MakeScreens(detector, recorded.first, recorded.returns, first_material, surfaces);
-  const CastFrame cast = CastOf(way, scene, surfaces.all, screens, duration_ns);
-  const ReturnRule rule = RuleFor(detector, returns);
-  const ScreenEchoes screen_echoes(detector, rule, cast, screens, surfaces);
-  Job job{.way = way,
-          .recorded = recorded,
-          .cast = cast,
-          .screens = screens,
-          .screen_echoes = screen_echoes,
-          .velocities = {},
-          .world_from_window = scene.window->window_from_world.inverse(),
-          .changed = frame.firings,
-          .power_kept = frame.power_kept};
-  frame.power_kept.assign(recorded.returns.size(), 1.0F);
-  if (cast.motion != nullptr) job.velocities.emplace(detector, cast);
-  const auto near = Those(order, [&](std::uint32_t firing) { return is_near[firing]; });
-  Make(job, near, Kind::kTraced);
-  if (ChangesEmptyBeams(detector)) {
-    std::vector<bool> is_met(recorded.pattern.num_firings());
-    for (const std::uint32_t firing : near) is_met[firing] = screens.met(firing) != 0;
-    const auto make = [&](Kind kind, bool has_screens) {
-      Make(job,
-           Those(order,
-                 [&](std::uint32_t firing) {
-                   return !is_met[firing] && screens.of(firing).empty() != has_screens;
-                 }),
-           kind);
-    };
-    make(Kind::kScreens, true);
-    make(Kind::kEmpty, false);
-  }
-  std::ranges::sort(frame.firings, {}, &ChangedFiring::firing);
-  if (has_views) frame.views = ViewObjects(job, scene, near);
-  return frame;
-}
-
-std::vector<std::vector<ChangedFiring>> ScreenedScan::Parts::MakeAnew(
-    const Wanted& wanted, const std::vector<bool>& is_wanted) {
-  const RecordedScan& all = wanted.recorded;
-  // Without the screens of all others, which take longer than the trace of a few.
-  RecordedScan few{.index = all.index,
-                   .stamp_ns = all.stamp_ns,
-                   .pattern = all.pattern,
-                   .first = {0},
-                   .returns = {}};
-  few.first.reserve(all.first.size());
-  for (std::size_t i = 0; i < is_wanted.size(); ++i) {
-    if (is_wanted[i]) {
-      few.returns.insert(few.returns.end(), all.returns.begin() + all.first[i],
-                         all.returns.begin() + all.first[i + 1]);
-    }
-    few.first.push_back(static_cast<std::uint32_t>(few.returns.size()));
-  }
-  const Wanted those{few,
-                     wanted.scene,
-                     wanted.duration_ns,
-                     wanted.returns,
-                     Those(wanted.order, [&](std::uint32_t firing) { return is_wanted[firing]; }),
-                     is_wanted};
-  std::vector<std::vector<ChangedFiring>> changed;
-  for (const Way& way : variants) {
-    changed.push_back(MakeFirings(way, those, false).firings);
-    for (ChangedFiring& firing : changed.back()) {
-      const std::uint32_t shift = all.first[firing.firing] - few.first[firing.firing];
-      for (ReturnNow& now : firing.returns) now.screen += now.screen == kNoScreen ? 0 : shift;
-      for (LostReturn& lost : firing.lost) lost.screen += shift;
-    }
-  }
-  return changed;
-}
-
-ScreenedFrame ScreenedScan::Parts::Scan(const RecordedScan& recorded,
-                                        std::uint32_t returns,
-                                        const Certify& certify) {
-  const ScanPattern& pattern = recorded.pattern;
-  if (pattern.num_firings() == 0) {
-    ScreenedFrame empty;
-    empty.views.resize(scenes.world().objects().size());
-    return empty;
-  }
-  UseRows(pattern.rows, pattern.rate_hz);
-  const std::uint32_t duration_ns = *std::ranges::max_element(pattern.time_ns);
-  scenes.UseDuration(duration_ns);
-  BegunFrame begun = scenes.Begin(recorded.index, recorded.stamp_ns);
-  const FrameScene& scene = scenes.SceneOf(begun);
-  const double beside_rad = BesideBeam_rad(own.spec.detector);
-  const std::vector<bool> is_near = NearObjects(recorded, beside_rad);
-  const Wanted all{recorded, scene, duration_ns, returns, TracingOrder(pattern), is_near};
-  ScreenedFrame frame = MakeFirings(own, all, true);
-  if (!certify) return frame;
-  double widest_rad = beside_rad;
-  for (const Way& way : variants) {
-    widest_rad = std::max(widest_rad, BesideBeam_rad(way.spec.detector));
-  }
-  // The frame itself traces no others with them, which would move its rays by parts of 1e-7.
-  certify(frame, widest_rad > beside_rad ? NearObjects(recorded, widest_rad) : is_near,
-          [&](const std::vector<bool>& is_wanted) { return MakeAnew(all, is_wanted); });
   return frame;
 }
 

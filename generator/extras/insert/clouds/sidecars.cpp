@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <optional>
-#include <set>
-#include <utility>
 
 #include "core/base/text.h"
 #include "core/io/run/camera_files.h"
-#include "core/io/run/dataset_files.h"
 #include "core/io/run/frame_record.h"
 #include "core/io/run/sequence_files.h"
 

@@ -1,9 +1,7 @@
 #include "generator/extras/insert/firing_finder.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 #include <variant>

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
-#include <optional>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

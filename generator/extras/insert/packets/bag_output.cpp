@@ -1,11 +1,9 @@
 #include "generator/extras/insert/packets/packet_outputs.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>

@@ -7,7 +7,6 @@
 #include <optional>
 #include <set>
 #include <string_view>
-#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
@@ -16,9 +15,7 @@
 #include "core/base/units.h"
 #include "core/io/openlabel.h"
 #include "core/io/recording/recording_kinds.h"
-#include "core/io/recording/sequence_lines.h"
 #include "core/io/run/frame_record.h"
-#include "core/io/write_file.h"
 #include "core/scenario/json_text.h"
 #include "railcast/remark.h"
 

@@ -7,7 +7,6 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/units.h"
 #include "core/rail/line/line_place.h"
 
 namespace railcast {

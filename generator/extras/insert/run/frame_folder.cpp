@@ -1,13 +1,11 @@
 #include "generator/extras/insert/run/frame_folder.h"
 
 #include <algorithm>
-#include <functional>
 #include <optional>
 #include <system_error>
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
 #include "core/extras/insert/convert_record.h"
 #include "core/extras/insert/insertion_verification.h"
 #include "core/io/content_hash.h"

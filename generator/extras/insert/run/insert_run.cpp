@@ -26,7 +26,6 @@
 #include "core/io/run/run_folder.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/run/table_records.h"
-#include "core/io/write_file.h"
 #include "core/program/command_line.h"
 #include "core/program/version.h"
 #include "core/simulate/frame_poses.h"
