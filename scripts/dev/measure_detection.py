@@ -88,19 +88,23 @@ def write_study(name, sensor, folder):
         (folder / f"{file}.json").write_text(json.dumps(content, indent=1), encoding="utf-8")
 
 
-def rows_of(build, name, sensor, folder):
-    """The rows of one study, one for each object in the way."""
-    inputs = folder / "inputs" / name / sensor
-    out = folder / "studies" / name / sensor
-    write_study(name, sensor, inputs)
-    done = subprocess.run([build / "analysis/railcast-analyze", "study", inputs / "study.json", "--out", out],
+def studied(build, study, out, what):
+    """The verdicts of a study, one for each object in the way."""
+    done = subprocess.run([build / "analysis/railcast-analyze", "study", study, "--out", out],
                           stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     if NOTHING_IN_WAY in done.stderr:
         return []
     if done.returncode != 0:
-        sys.exit(f"{name}, {sensor}: {done.stderr.strip()}")
+        sys.exit(f"{what}: {done.stderr.strip()}")
     with open(out / "csv" / "verdicts.csv", encoding="utf-8", newline="") as lines:
-        verdicts = list(csv.DictReader(lines))
+        return list(csv.DictReader(lines))
+
+
+def rows_of(build, name, sensor, folder):
+    """The rows of one study, one for each object in the way."""
+    inputs = folder / "inputs" / name / sensor
+    write_study(name, sensor, inputs)
+    verdicts = studied(build, inputs / "study.json", folder / "studies" / name / sensor, f"{name}, {sensor}")
 
     def metres(text):
         return f"{float(text):.1f}" if text else ""
