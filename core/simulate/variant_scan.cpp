@@ -35,6 +35,8 @@ void Simulator::UseVariants(std::vector<FiringVariant> variants) {
   if (std::ranges::any_of(parts.others, casts_beams)) {
     parts.scenes.UseBeams(parts.spec.detector.footprint_labels);
   }
+  const auto has_texture = [](const FiringVariant& by) { return by.effects.texture; };
+  if (std::ranges::any_of(parts.variants, has_texture)) parts.scenes.UseTexture(true);
 }
 
 void Simulator::ScanFirings(BegunFrame& begun,

@@ -65,15 +65,18 @@ void ScreenEchoes::Put(const Detector& detector, EchoTiles& echoes) const {
   }
 }
 
-void ScreenEchoes::Place(EchoTiles& echoes) const {
+std::vector<float> ScreenEchoes::Place(EchoTiles& echoes) const {
+  std::vector<float> exact;
   ForEachEcho(echoes, [&](const EchoTiles::Place& echo) {
+    const auto& [tile, lane] = echo;
+    exact.push_back(tile.intensity[lane]);
     const std::uint32_t screen = ScreenAt(echo);
     if (screen == kNoScreen) return;
-    const auto& [tile, lane] = echo;
     const float shift_m = std::exchange(tile.peak_shift_m[lane], 0.0F);
     const float moved_m = std::fabs(shift_m) > kMoved_m ? shift_m : 0.0F;
     tile.true_range_m[lane] = screens_.screen(screen).range_m + moved_m;
   });
+  return exact;
 }
 
 float ScreenEchoes::PowerKept(const EchoTiles::Place& echo) const {
@@ -105,12 +108,16 @@ bool ScreenEchoes::IsDetected(const EchoTiles::Place& echo) const {
   return static_cast<double>(UnitFloat(words[0])) * probability(before) < probability(ratio);
 }
 
-void ScreenEchoes::Judge(EchoTiles& echoes) const {
+void ScreenEchoes::Judge(EchoTiles& echoes, const std::vector<float>& exact) const {
   const bool is_physical = IsPhysical(detector_.effects);
   const bool has_cover = detector_.effects.cover && HasCover(detector_);
+  std::size_t num = 0;
   ForEachEcho(echoes, [&](const EchoTiles::Place& echo) {
+    const std::size_t number = num++;  // Echoes that the detector added come after all others.
     if (ScreenAt(echo) == kNoScreen) return;
     const auto& [tile, lane] = echo;
+    // The recorded intensity has the noise and the gain of its sensor in it.
+    if (is_physical) tile.intensity[lane] = exact[number];
     Outcome outcome = OutcomeAt(echo);
     if (is_physical && IsDetected(echo)) {
       outcome = Outcome::kReturned;

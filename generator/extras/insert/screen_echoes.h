@@ -73,10 +73,12 @@ class ScreenEchoes {
 
   /// Before Detector::Detect(): puts the echoes of screens where these are, unless other light in
   /// them moves their peaks.
-  void Place(EchoTiles& echoes) const;
+  /// @returns The intensities of all echoes, in which the receiver has not erred yet.
+  [[nodiscard]] std::vector<float> Place(EchoTiles& echoes) const;
   /// After it: decides anew which echoes of screens are detected, and undoes what noise and chance
   /// have done to them.
-  void Judge(EchoTiles& echoes) const;
+  /// @param exact As Place() returned them.
+  void Judge(EchoTiles& echoes, const std::vector<float>& exact) const;
   /// After it: notes of the echo of a screen which part it has of the recorded power.
   /// @param kept By screen.
   void TellPower(const EchoTiles::Place& echo, std::vector<float>& kept) const;

@@ -203,11 +203,11 @@ struct ScreenedScan::Parts {
         job.screen_echoes.Put(tracer.detector(), empty);
       });
     }
-    job.screen_echoes.Place(echoes);
+    const std::vector<float> exact = job.screen_echoes.Place(echoes);
     const Detector& detector = kind == Kind::kScreens ? *job.way.unfailing : tracer.detector();
     detector.Detect({mine.rays, job.world_from_window, SecondsFromNs(job.recorded.stamp_ns)},
                     echoes);
-    job.screen_echoes.Judge(echoes);
+    job.screen_echoes.Judge(echoes, exact);
     firings.MoveToOrigins(tile, echoes);
     std::array<bool, kTileSize> is_told{};
     // Beams that were traced in vain are as all others.
@@ -397,6 +397,7 @@ void ScreenedScan::UseVariants(const std::vector<FiringVariant>& variants) {
     SimulatorSpec spec = parts.own.spec;
     spec.detector.effects = variant.effects;
     spec.detector.beam.footprint_rays = variant.footprint_rays;
+    if (variant.effects.texture) parts.scenes.UseTexture(true);
     parts.variants.push_back({ForRecorded(std::move(spec))});
   }
 }

@@ -355,6 +355,36 @@ TEST(Inserter, LeavesAFrameAsItIsWithoutThingsAndWeather) {
   EXPECT_EQ(FrameBytes(inserted.recorded.frame), FrameBytes(recorded.recorded.frame));
 }
 
+TEST(Inserter, MakesNoNoiseOfIntensitiesInRecordedReturns) {
+  const LoopSensor exact = MakeLoopSensor("vlp16", Fidelity::kFootprint, kLoopSector);
+  LoopSensor noisy = exact;
+  ReceiverSpec& receiver = noisy.scenario.lidar.receiver;
+  receiver.intensity_noise = receiver.channel_gain = 0.5;
+  const RecordedFirings recorded =
+      RecordedOf(ScanLoop(exact, MakeLoopScene(exact.scenario)), exact.pattern);
+  const auto insert = [&](const ScenarioSpec& scenario) {
+    Inserter inserter(PlanOf(scenario, ThingsAlone(scenario, LoopThings()), exact.pattern), 0);
+    return inserter.Insert(recorded, 0).recorded.frame;
+  };
+  const Frame frame = insert(exact.scenario);
+  const Frame with_noise = insert(noisy.scenario);
+  std::size_t num_weaker = 0;
+  std::size_t num_noisy = 0;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    ASSERT_EQ(HasPointAt(frame, slot), HasPointAt(with_noise, slot));
+    if (!HasPointAt(frame, slot)) continue;
+    const bool is_same = frame.intensity[slot] == with_noise.intensity[slot];
+    if (frame.instance[slot] != 0) {
+      num_noisy += is_same ? 0U : 1U;
+    } else {
+      EXPECT_TRUE(is_same) << slot;
+      num_weaker += frame.intensity[slot] < recorded.recorded.frame.intensity[slot] ? 1U : 0U;
+    }
+  }
+  EXPECT_GT(num_weaker, 20U);
+  EXPECT_GT(num_noisy, 20U);
+}
+
 TEST(Inserter, ListsEverySlotThatIsNotAsRecordedAndNoOther) {
   const Loop loop = RunLoop(MakeLoopSensor("vlp16", Fidelity::kFootprint, kLoopSector));
   const Frame& before = loop.recorded.recorded.frame;
