@@ -11,7 +11,8 @@
 namespace railcast {
 
 /// How a mesh file is to be understood. What is absent is taken from the file where its format
-/// says it (glTF, FBX and DAE); all others are taken to be in metres with z up.
+/// says it (glTF, FBX and DAE; the unit also by a comment at the head of OBJ and PLY); all others
+/// are taken to be in metres with z up.
 struct MeshUnits {
   std::optional<double> unit_m;  ///< Metres per file unit.
   std::optional<bool> y_up;

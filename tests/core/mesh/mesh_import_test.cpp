@@ -103,7 +103,10 @@ TEST(ParseMesh, TakesTheUnitThatACommentAtTheHeadNames) {
   };
   EXPECT_NEAR(width_m("# Rhino\n\n# File units = millimeters\n" + triangle), 2.0, 1e-6);
   EXPECT_NEAR(width_m("# units: inches\n" + triangle), 50.8, 1e-5);
+  EXPECT_NEAR(width_m("# units: in\n" + triangle), 50.8, 1e-5);
+  EXPECT_NEAR(width_m("# units of length in yards\n" + triangle), 1828.8, 1e-3);
   EXPECT_NEAR(width_m("# File units = meters\n" + triangle), 2000.0, 1e-3);
+  EXPECT_NEAR(width_m("# 1 unit = 100 cm\n" + triangle), 2000.0, 1e-3);
   // What is given comes first, and comments between shapes may be of anything.
   EXPECT_NEAR(width_m("# units: mm\n" + triangle, {.unit_m = 0.5, .y_up = {}}), 1000.0, 1e-3);
   EXPECT_NEAR(width_m(triangle + "# units: mm\n"), 2000.0, 1e-3);
