@@ -77,6 +77,10 @@ RunChoices ChoicesOfScenario(const Recipe& recipe,
   return made;
 }
 
+std::string PlaceOf(const Recipe& recipe, std::uint32_t scenario) {
+  return ShownPath(recipe.file) + ": scenario " + std::to_string(scenario) + ": ";
+}
+
 /// Checks that nothing is chosen that recordings already say.
 void CheckChoices(const Recipe& recipe, const DatasetChoices& choices) {
   if (!recipe.has_plans()) return;
@@ -100,10 +104,11 @@ void CheckCertify(const Recipe& recipe, const DatasetChoices& choices) {
   const ScenarioDrawer drawer(recipe);
   for (std::uint32_t i = 0; i < recipe.num_scenarios; ++i) {
     const DrawnScenario drawn = drawer.Draw(i);
-    if (drawn.run ? Inserter::CanCertify(PlanOf(drawn))
-                  : !EffectsOf(drawn.scenario).dense_footprint) {
-      return;
-    }
+    const bool can_certify = AtPlace(PlaceOf(recipe, i), [&] {
+      return drawn.run ? Inserter::CanCertify(PlanOf(drawn))
+                       : !EffectsOf(drawn.scenario).dense_footprint;
+    });
+    if (can_certify) return;
   }
   throw InputError("--certify: must be left out: all scenarios of " + ShownPath(recipe.file) +
                    (recipe.has_plans() ? " have no objects, or" : "") +
@@ -217,9 +222,9 @@ class DatasetRun {
                               turn.on_progress(static_cast<double>(num_done) / num_frames);
                             },
                             turn.is_stopped};
-    const InsertResult made =
-        AtPlace(ShownPath(recipe_.file) + ": scenario " + std::to_string(number) + ": ",
-                [&] { return MakeInserted(drawn, choices_, directory, is_known, hooks); });
+    const InsertResult made = AtPlace(PlaceOf(recipe_, number), [&] {
+      return MakeInserted(drawn, choices_, directory, is_known, hooks);
+    });
     num_frames_ += made.num_done - made.num_resumed;
     if (!made.is_complete) return std::nullopt;
     drawn.record.sequences = {RecordOfInserted(drawn, choices_.directory, directory)};
