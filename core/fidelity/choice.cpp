@@ -192,17 +192,15 @@ class Comparer {
     }
     std::vector<Deviation> deviations;
     for (const FrameComparison& of_set : comparisons) {
-      deviations.push_back(DeviationOf(of_set.Result()));
+      const FrameDifference difference = of_set.Result();
+      has_reference_echoes_ = has_reference_echoes_ || difference.reference_echoes.num > 0;
+      deviations.push_back(DeviationOf(difference));
     }
     return deviations;
   }
 
-  /// Whether the reference has any echo. If not, there is nothing to compare.
-  [[nodiscard]] bool HasReferenceEchoes() const {
-    return std::ranges::any_of(references_, [](const std::optional<Frame>& frame) {
-      return std::ranges::count(frame->outcome, Outcome::kReturned) > 0;
-    });
-  }
+  /// Whether the reference has had any echo of what is compared. If not, nothing can be said.
+  [[nodiscard]] bool HasReferenceEchoes() const { return has_reference_echoes_; }
 
  private:
   void Scan(std::uint32_t index, const EffectSet& effects, int footprint_rays, Frame& frame) {
@@ -221,6 +219,7 @@ class Comparer {
   std::vector<std::uint32_t> frames_;
   std::function<void()> on_reference_;
   std::vector<std::optional<Frame>> references_;
+  bool has_reference_echoes_ = false;
 };
 
 void Store(const EffectSearchResult& found,

@@ -68,6 +68,13 @@ struct EffectNamesInUse {
   std::uint16_t snow_material{};
 };
 
+/// Whether a label is that of echoes which an effect adds and no surface sends.
+bool IsOfEchoesAlone(const std::string& label) {
+  return std::ranges::any_of(EffectTable(), [&](const Effect& effect) {
+    return std::ranges::find(effect.labels, label, &EffectLabel::name) != effect.labels.end();
+  });
+}
+
 std::optional<EffectNamesInUse> TryNames(const ScenarioSpec& spec, ErrorList& errors) {
   return Located(spec, "", errors, [&] {
     const LabelTable labels(spec.labels);
@@ -76,6 +83,11 @@ std::optional<EffectNamesInUse> TryNames(const ScenarioSpec& spec, ErrorList& er
     EffectNamesInUse names;
     ErrorList unknown;
     const auto ids_of = [&](const std::vector<std::string>& classes, const std::string& pointer) {
+      for (std::size_t i = 0; i < classes.size(); ++i) {
+        if (!IsOfEchoesAlone(classes[i])) continue;
+        unknown.Add({pointer + '/' + std::to_string(i), "must be a class of surfaces",
+                     '"' + ShownText(classes[i]) + '"'});
+      }
       const auto ids = Attempt("", unknown, [&] { return labels.Ids(classes, pointer); });
       return ids.value_or(std::vector<std::uint32_t>{});
     };

@@ -133,6 +133,9 @@ class FrameScenes {
     footprint_labels_ = labels;
   }
 
+  /// Has scenes made for casting rays from now on, although windows may be prepared for beams.
+  void UseRaysAlone() { footprint_labels_.clear(); }
+
   /// Begins a frame. Waits for its window if necessary, and starts preparing the next.
   [[nodiscard]] BegunFrame Begin(std::uint32_t index, std::int64_t stamp_ns);
   /// Returns the scene of a frame, which is made on the first call. Scenes of different frames may

@@ -132,12 +132,27 @@ Detection::Detection(const SimulatorSpec& spec,
 
 void Simulator::Parts::UseSpec() {
   own.emplace(spec, materials, pattern);
-  if (own->tracer->casts_beams()) scenes.UseBeams(spec.detector.footprint_labels);
+  PrepareScenes();
   const DetectorSpec& detector = spec.detector;
   scenes.UseWind(Wind(WindVelocity_mps(detector.weather), detector.air_seed));
   scenes.UseMotion(detector.velocity.has_value());
-  scenes.UseTexture(detector.effects.texture);
   others.clear();
+}
+
+void Simulator::Parts::PrepareScenes() {
+  std::vector<EffectSet> sets = {spec.detector.effects};
+  for (const FiringVariant& variant : variants) sets.push_back(variant.effects);
+  scenes.UseTexture(std::ranges::any_of(sets, &EffectSet::texture));
+  const bool casts_beams = std::ranges::any_of(sets, [&](const EffectSet& effects) {
+    DetectorSpec detector = spec.detector;
+    detector.effects = effects;
+    return HasFootprint(detector) && !effects.dense_footprint;
+  });
+  if (casts_beams) {
+    scenes.UseBeams(spec.detector.footprint_labels);
+  } else {
+    scenes.UseRaysAlone();
+  }
 }
 
 const SimulatorSpec& Simulator::spec() const {

@@ -94,6 +94,8 @@ struct Simulator::Parts {
     };
   }
   void UseSpec();
+  /// Has scenes made with what the spec's effects and those of the variants need.
+  void PrepareScenes();
   /// Makes `others` unless they are there. Another spec needs others, but only for firings that are
   /// made in variants, so that weather that is changed live does not wait for them.
   void MakeOthers();

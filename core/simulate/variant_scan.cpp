@@ -31,12 +31,7 @@ void Simulator::UseVariants(std::vector<FiringVariant> variants) {
   parts.variants = std::move(variants);
   parts.others.clear();
   parts.MakeOthers();
-  const auto casts_beams = [](const Detection& by) { return by.tracer->casts_beams(); };
-  if (std::ranges::any_of(parts.others, casts_beams)) {
-    parts.scenes.UseBeams(parts.spec.detector.footprint_labels);
-  }
-  const auto has_texture = [](const FiringVariant& by) { return by.effects.texture; };
-  if (std::ranges::any_of(parts.variants, has_texture)) parts.scenes.UseTexture(true);
+  parts.PrepareScenes();
 }
 
 void Simulator::ScanFirings(BegunFrame& begun,

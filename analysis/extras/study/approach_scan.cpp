@@ -87,7 +87,10 @@ void ApproachScanner::Use(const ScenarioSpec& scenario) {
     shared_ = std::move(shared);
   }
   SimulatorSpec spec = simulator_->spec();
+  // The sensor and the labels are those of the simulator.
+  std::vector<std::uint32_t> footprint_labels = std::move(spec.detector.footprint_labels);
   spec.detector = DetectorSpecOf(scenario, scenario.lidar, EffectsOf(scenario));
+  spec.detector.footprint_labels = std::move(footprint_labels);
   UseWeather(scenario, scenario.weather, spec);
   simulator_->Use(spec);
   world_ = MakeWorld(scenario);

@@ -45,7 +45,7 @@ class SubRayParts {
 /// Effects `footprint`, `dense_footprint` and `thin_conductors`: turns what a beam of finite width
 /// meets (FacetParts, SubRayParts) into echoes. A beam that lies on one plane is represented by its
 /// central ray, with the spread of the whole beam. So is a beam that cannot meet a surface of
-/// BeamSpec::footprint_of; what the others give does not depend on it.
+/// BeamSpec::footprint_of; what the others give does not depend on it, but for halos.
 ///
 /// Effect `thin_conductors`: wires in closed form (thin_conductors.h). A wire hides its share of
 /// what lies behind it, and the surfaces in front of a wire hide it in proportion to their share of

@@ -167,7 +167,13 @@ TEST(ChooseFidelity, GivesOnlyThoseBeamsAWidthThatMayMeetTheClassesOfTheToleranc
   const FidelityChoice of_some = Choose(scenario);
   EXPECT_THAT(of_some.footprint_of, ElementsAre("mast", "rail"));
   EXPECT_THAT(ChoiceText(of_some), HasSubstr(" of mast and rail\n"));
-  for (const Label& label : scenario.labels) scenario.lidar.beam.footprint_of.push_back(label.name);
+  for (const Label& label : scenario.labels) {
+    const bool is_of_echoes = std::ranges::any_of(EffectTable(), [&](const Effect& effect) {
+      return std::ranges::find(effect.labels, label.name, &EffectLabel::name) !=
+             effect.labels.end();
+    });
+    if (!is_of_echoes) scenario.lidar.beam.footprint_of.push_back(label.name);
+  }
   const FidelityChoice of_all = Choose(scenario);
   EXPECT_EQ(of_some.full_deviation, of_all.full_deviation);
   EXPECT_LT(of_some.full_deviation.missed_share, 0.5);
@@ -212,6 +218,14 @@ TEST(ChooseFidelity, KeepsAllWhereNothingIsSeen) {
   EXPECT_FALSE(choice.has_echoes);
   EXPECT_TRUE(choice.effects.footprint);
   EXPECT_THAT(ChoiceText(choice), HasSubstr("no echo to compare with: all are kept\n"));
+}
+
+TEST(ChooseFidelity, KeepsAllWhereNothingOfTheTolerancesClassesIsSeen) {
+  ScenarioSpec scenario = ReadLine({.has_wires = false, .mount = kSideways});
+  scenario.tolerance.of = {"person"};
+  const FidelityChoice choice = Choose(scenario);
+  EXPECT_FALSE(choice.has_echoes);
+  EXPECT_TRUE(choice.effects.footprint);
 }
 
 TEST(ChooseFidelity, LeavesTheSimulatorAsItWas) {

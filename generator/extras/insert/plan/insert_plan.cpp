@@ -242,6 +242,11 @@ void UseSensorOf(const std::filesystem::path& recording,
                  std::vector<std::string>& remarks) {
   // A constant, for GCC 12 fears that a temporary one is destroyed unset.
   static const LidarSpec kUnset;
+  if (const auto& classes = plan.lidar.beam.footprint_of; !classes.empty()) {
+    throw InputError({{plan.sources.Place("/lidar/beam/footprint_of"),
+                       "must be left out: of what classes recorded surfaces are is not known",
+                       Json(classes).dump()}});
+  }
   if (plan.lidar != kUnset) return;
   const RecordingInfo info = OpenRecording(recording)->info();
   std::optional<LidarSpec> lidar = SensorOfSequence(info);
@@ -249,6 +254,7 @@ void UseSensorOf(const std::filesystem::path& recording,
   if (!lidar) lidar = SensorOfCapture(info, plan);
   if (!lidar) return UseSensorOfPoints(recording, info, plan, remarks);
   plan.lidar = std::move(*lidar);
+  plan.lidar.beam.footprint_of.clear();  // Recorded surfaces are of unknown classes.
   std::string remark = "the sensor is " + (plan.lidar.name.empty() ? "that" : plan.lidar.name) +
                        (is_own ? " of the recording's scenario" : ", as the packets say");
   if (!is_own) {
