@@ -182,6 +182,7 @@ TEST(MeshMutants, OfTextAreNeverReadWrongWithoutAWord) {
   TryCuts(of_stl, 17);
   constexpr const char* kDigits = "digits of a number are lost, and what is left is a number";
   of_obj.Excuse("cut off", "OBJ says nowhere how much it holds");
+  of_obj.Excuse("a line more", "a comment that names the unit is obeyed");
   for (Mutants* mutants : {&of_obj, &of_off, &of_stl}) {
     mutants->TryHarmless("line ends of Windows", AllReplaced(mutants->good(), "\n", "\r\n"));
     mutants->Excuse("a byte lost", kDigits);

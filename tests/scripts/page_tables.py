@@ -19,6 +19,7 @@ OTHERS = {
         "examples/brake_node.py"),
     "takes hours, an idle machine or a cluster": (
         "scripts/reproduce_paper.sh", "scripts/cluster/submit.sh", "scripts/dev/measure_detection.py",
+        "scripts/dev/measure_textures.py",
         "scripts/dev/measure_results.py", "scripts/dev/effects_table.py", "build/release/tests/bench/railcast-settings"),
 }
 
