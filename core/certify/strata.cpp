@@ -21,13 +21,16 @@ void MarkEdges(const Frame& frame, Stride stride, std::vector<std::uint8_t>& edg
   const std::uint32_t* const instance = frame.instance.data();
   const float* const range_m = frame.true_range_m.data();
   const float* const mixed_share = frame.mixed_share.data();
+  // Bytes may alias anything, vectors' pointers too, unless it is said that they do not.
+  std::uint8_t* const __restrict edge = edges.data();
   for (std::size_t cell = 0; cell < num_cells; ++cell) {
-    edges[cell] = static_cast<std::uint8_t>(mixed_share[cell * stride] >= kEdgeMixedShare);
+    edge[cell] = static_cast<std::uint8_t>(mixed_share[cell * stride] >= kEdgeMixedShare);
   }
-  std::vector<std::uint8_t> differs(columns);
+  std::vector<std::uint8_t> row(columns);
+  std::uint8_t* const __restrict differs = row.data();
   const auto mark = [&](std::size_t first, std::size_t apart, std::size_t num) {
-    for (std::size_t i = 0; i < num; ++i) edges[first + i] |= differs[i];
-    for (std::size_t i = 0; i < num; ++i) edges[first + apart + i] |= differs[i];
+    for (std::size_t i = 0; i < num; ++i) edge[first + i] |= differs[i];
+    for (std::size_t i = 0; i < num; ++i) edge[first + apart + i] |= differs[i];
   };
   for (std::size_t begin = 0; begin < num_cells; begin += columns) {
     for (std::size_t i = 0; i + 1 < columns; ++i) {
@@ -54,10 +57,12 @@ template <typename Stride>
 void AddKinds(const Frame& frame, Stride stride, std::vector<std::uint8_t>& kinds) {
   const float* const range_m = frame.true_range_m.data();
   const auto* const outcome = frame.outcome.data();
-  for (std::size_t cell = 0; cell < kinds.size(); ++cell) {
-    kinds[cell] = static_cast<std::uint8_t>(4 * StratumBinOf(range_m[cell * stride]) +
-                                            2 * std::uint32_t{kinds[cell]} +
-                                            std::uint32_t{HasPoint(outcome[cell * stride])});
+  const std::size_t num_cells = kinds.size();
+  std::uint8_t* const __restrict kind = kinds.data();
+  for (std::size_t cell = 0; cell < num_cells; ++cell) {
+    kind[cell] = static_cast<std::uint8_t>(4 * StratumBinOf(range_m[cell * stride]) +
+                                           2 * std::uint32_t{kind[cell]} +
+                                           std::uint32_t{HasPoint(outcome[cell * stride])});
   }
 }
 
