@@ -103,10 +103,7 @@ class BeamTracer {
     return !HasFootprint(spec_) && !spec_.effects.thin_conductors;
   }
   [[nodiscard]] float range_max_m() const { return static_cast<float>(spec_.range_max_m); }
-  /// Whether it passes beams to RayCaster::CastBeam().
-  [[nodiscard]] bool casts_beams() const {
-    return HasFootprint(spec_) && !spec_.effects.dense_footprint;
-  }
+  [[nodiscard]] bool casts_beams() const { return CastsBeams(spec_); }
 
  private:
   /// Casts the central rays of beams that need one; of all if `are_all_needed`.

@@ -146,7 +146,7 @@ void Simulator::Parts::PrepareScenes() {
   const bool casts_beams = std::ranges::any_of(sets, [&](const EffectSet& effects) {
     DetectorSpec detector = spec.detector;
     detector.effects = effects;
-    return HasFootprint(detector) && !effects.dense_footprint;
+    return CastsBeams(detector);
   });
   if (casts_beams) {
     scenes.UseBeams(spec.detector.footprint_labels);

@@ -38,11 +38,6 @@ float MixedShare(std::vector<Component>& parts) {
   return std::max(total - largest, 0.0F);
 }
 
-// Whether beams are traced as such, not as rays.
-bool LooksAtFacets(const DetectorSpec& spec) {
-  return HasFootprint(spec) && !spec.effects.dense_footprint;
-}
-
 // Echoes weaker than this are detected in at most one case of 1000.
 constexpr float kLeastRatio = 0.3F;
 
@@ -206,7 +201,7 @@ void Footprint::Trace(const WideBeams& beams, const WireSet* wires, const Detect
   }
   has_wire_.fill(false);
   for (const WireCapture& capture : captures_) has_wire_[capture.lane] = true;
-  if (!LooksAtFacets(spec_)) return;
+  if (!CastsBeams(spec_)) return;
   ChooseWide(beams, first.num_rays);
   facet_parts_.Trace(beams, first, is_wide_);
 }
@@ -226,7 +221,7 @@ void Footprint::ChooseWide(const WideBeams& beams, std::size_t num_lanes) {
 
 bool Footprint::NeedsCenter(const WideBeams& beams, std::size_t lane) const {
   // What wires hide may be all that sends light.
-  return !LooksAtFacets(spec_) || has_wire_[lane] || facet_parts_.NeedsCenter(beams, lane);
+  return !CastsBeams(spec_) || has_wire_[lane] || facet_parts_.NeedsCenter(beams, lane);
 }
 
 void Footprint::Resolve(const WideBeams& beams, EchoTiles& echoes) {

@@ -41,6 +41,11 @@ class SubRayParts {
 
 /// Whether effect `footprint` is on and beams have a width.
 [[nodiscard]] bool HasFootprint(const DetectorSpec& spec);
+/// Whether beams are passed to RayCaster::CastBeam(): those of effect `footprint`, not those of
+/// `dense_footprint`, whose sub-rays are traced alone.
+[[nodiscard]] inline bool CastsBeams(const DetectorSpec& spec) {
+  return HasFootprint(spec) && !spec.effects.dense_footprint;
+}
 
 /// Effects `footprint`, `dense_footprint` and `thin_conductors`: turns what a beam of finite width
 /// meets (FacetParts, SubRayParts) into echoes. A beam that lies on one plane is represented by its
