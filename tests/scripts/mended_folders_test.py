@@ -1,9 +1,9 @@
 """Whether nobody loses a frame: mended_folders_test.py BUILD_DIR [--all] [KIND...].
 
 Each command that makes a folder of numbered items makes a small one. Of the folder, a file of each kind is removed, cut, or
-changed by a byte, or an unfinished file is left beside it: two of these damages, or with --all each; a run is killed
-several times; and its disk is full. The same command must then make the folder again, with the same bytes. A folder of
-another run and one with a file of others are refused in one line, and nothing in them is changed.
+changed by a byte, or an unfinished file is left beside it: one of these damages, each in its turn, or with --all each; a run
+is killed several times; and its disk is full. The same command must then make the folder again, with the same bytes. A
+folder of another run and one with a file of others are refused in one line, and nothing in them is changed.
 """
 
 import concurrent.futures
@@ -202,9 +202,9 @@ def try_kills(folder, wanted, duration_s, num=4):
     return said and f"{folder.kind}: killed: {said}"
 
 
-def try_full_disk(folder, wanted, num_bytes):
-    """Runs the command on disks with less room than the folder takes, then on the same with enough."""
-    for share in (0.2, 0.5, 0.8):
+def try_full_disk(folder, wanted, num_bytes, shares):
+    """Runs the command on disks with these shares of the room that the folder takes, then on the same with enough."""
+    for share in shares:
         target = folder.place(f"full_{share}")
         target.mkdir()
         script = ('mount -t tmpfs -o size="$1" none out || exit; shift; "$@" >/dev/null 2>said; status=$?\n'
@@ -225,7 +225,9 @@ def try_full_disk(folder, wanted, num_bytes):
     return None
 
 
-def check(folder, pool, has_all):
+def check(folder, turn, pool, has_all):
+    """The trials with one kind of folder. Which damages and disks these are without `has_all` depends on the turn, so that
+    all are tried on one kind of folder or another."""
     whole = folder.place("whole")
     began = time.monotonic()
     ended = folder.run(whole)
@@ -238,12 +240,14 @@ def check(folder, pool, has_all):
     if said:
         raise RuntimeError(f"{folder.kind}: run again: {said}")
     named = [name for name in one_of_each(wanted) if (whole / name).stat().st_size > 0]
-    trials = [(damage, name) for i, name in enumerate(named) for damage in (DAMAGES if has_all else DAMAGES[i % 2::2])]
+    trials = [(damage, name) for i, name in enumerate(named, turn)
+              for damage in (DAMAGES if has_all else [DAMAGES[i % len(DAMAGES)]])]
     folders = {str(parent) for name in wanted for parent in pathlib.PurePath(name).parents} - {"."}
     trials += [(remove_folder, name) for name in one_of_each(sorted(folders))]
     results = [pool.submit(try_damage, folder, whole, wanted, damage, name) for damage, name in trials]
     num_bytes = sum((whole / name).stat().st_size for name in wanted)
-    results.append(pool.submit(try_full_disk, folder, wanted, num_bytes))
+    shares = (0.2, 0.5, 0.8)
+    results.append(pool.submit(try_full_disk, folder, wanted, num_bytes, shares if has_all else [shares[turn % 3]]))
     results += [pool.submit(try_stranger, folder, whole, name) for name in (".", *one_of_each(sorted(folders)))]
     results.append(pool.submit(try_kills, folder, wanted, duration_s))
     return results
@@ -259,7 +263,8 @@ def main(build, kinds, has_all):
         for text in INPUTS:
             subprocess.run(Folder("pcd", build, inputs).words(text), cwd=inputs, check=True, capture_output=True)
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-            results = [result for kind in kinds or KINDS for result in check(Folder(kind, build, inputs), pool, has_all)]
+            results = [result for turn, kind in enumerate(kinds or KINDS)
+                       for result in check(Folder(kind, build, inputs), turn, pool, has_all)]
             faults = [fault for fault in (result.result() for result in results) if fault]
     print("\n".join(faults + [f"{len(results)} trials, {len(faults)} faults"]))
     return 1 if faults else 0
