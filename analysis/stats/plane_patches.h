@@ -1,25 +1,15 @@
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <vector>
 
 #include "core/io/recording/scan_table.h"
+#include "core/io/recording/surface_point.h"
 #include "railcast/io/recording.h"
-#include "railcast/outcome.h"
 #include "railcast/transform.h"
 
 namespace railcast {
-
-/// Whether a slot holds a point that counts as measured on a surface. Where the outcome is
-/// recorded, echoes of fog, drops and flakes and false alarms are known not to be; elsewhere every
-/// point counts.
-[[nodiscard]] inline bool HasSurfacePoint(const RecordedFrame& recorded, std::size_t slot) {
-  const Frame& frame = recorded.frame;
-  if (!std::isfinite(frame.range_m[slot])) return false;
-  return !recorded.Has("outcome") || frame.outcome[slot] == Outcome::kReturned;
-}
 
 /// What PCL alone makes of the points in which a piece was found: the plane of RANSAC, fitted in
 /// two passes to the points within 5 standard deviations, and normals, each from 12 points on it

@@ -7,7 +7,7 @@
 
 #include "analysis/report/words.h"
 #include "analysis/stats/bins.h"
-#include "analysis/stats/column_finder.h"
+#include "core/io/recording/column_finder.h"
 
 namespace railcast {
 namespace {

@@ -9,10 +9,10 @@
 #include <optional>
 #include <thread>
 
-#include "analysis/stats/column_finder.h"
 #include "analysis/stats/holes.h"
 #include "analysis/stats/plane_patches.h"
 #include "analysis/stats/range_noise.h"
+#include "core/io/recording/column_finder.h"
 #include "core/io/recording/firing_truth.h"
 
 namespace railcast {

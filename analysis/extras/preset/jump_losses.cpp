@@ -62,17 +62,16 @@ Estimate FigureOf(const Jumps& jumps, const Takes& takes, const Of& of) {
     }
     return of(normal, right);
   };
-  return Jackknife(without, sizes);
+  return EstimateOf(Jackknife(without, sizes));
 }
 
 }  // namespace
 
-JumpLosses FindJumpLosses(const std::vector<const RecordedFrame*>& turns,
-                          const std::vector<ScanTable>& scans) {
+JumpLosses FindJumpLosses(const GridTurns& turns) {
   Jumps jumps;
-  for (std::size_t i = 0; i < turns.size(); ++i) {
-    for (std::size_t row = 0; row < scans[i].rows; ++row) {
-      AddRow(turns[i]->frame, scans[i], row, jumps);
+  for (std::size_t i = 0; i < turns.scans.size(); ++i) {
+    for (std::size_t row = 0; row < turns.scans[i].rows; ++row) {
+      AddRow(turns.frames[i]->frame, turns.scans[i], row, jumps);
     }
   }
   const auto fitted = [&](Eigen::Index which) {

@@ -237,22 +237,6 @@ double PresetComparison::HoleRatio() const {
   return simulated.HoleShare() / recorded.HoleShare();
 }
 
-std::vector<RecordedFrame> WholeTurns(Recording& recording, std::size_t most_frames) {
-  constexpr double kWhole = 0.9;
-  std::vector<RecordedFrame> turns;
-  std::uint32_t most = 0;
-  while (turns.size() < most_frames) {
-    const auto read = recording.Next();
-    if (!read) break;
-    turns.push_back((*read)());
-    most = std::max(most, turns.back().frame.columns);
-  }
-  std::erase_if(turns, [&](const RecordedFrame& turn) {
-    return !turn.is_grid || turn.frame.columns < kWhole * most;
-  });
-  return turns;
-}
-
 SeenTurns SeePlanesOf(const std::vector<RecordedFrame>& turns, Sectors sectors) {
   SeenTurns result;
   for (std::size_t i = 0; i < turns.size(); ++i) {

@@ -14,6 +14,7 @@
 #include "analysis/stats/holes.h"
 #include "analysis/stats/range_noise.h"
 #include "core/io/recording/scan_table.h"
+#include "core/io/recording/turn_noise.h"
 #include "railcast/frame.h"
 #include "railcast/io/recording.h"
 #include "railcast/scenario.h"
@@ -218,11 +219,6 @@ struct PresetComparison {
   /// Holes simulated over holes recorded, in all bins together.
   [[nodiscard]] double HoleRatio() const;
 };
-
-/// The turns of a recording that are whole: those of at least 0.9 of the most columns.
-/// @param most_frames Frames that are read at most.
-[[nodiscard]] std::vector<RecordedFrame> WholeTurns(
-    Recording& recording, std::size_t most_frames = std::numeric_limits<std::size_t>::max());
 
 /// What the turns of a recording show on their planes, to be compared with several scenarios.
 struct SeenTurns {
