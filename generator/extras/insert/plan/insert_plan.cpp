@@ -25,6 +25,7 @@
 #include "core/rail/line/line_place.h"
 #include "core/scenario/ouster_metadata.h"
 #include "generator/extras/insert/intensity_scale.h"
+#include "generator/extras/insert/plan/recorded_intensities.h"
 #include "generator/extras/insert/plan/recorded_line.h"
 #include "generator/extras/insert/plan/recorded_run.h"
 #include "generator/extras/insert/plan/recorded_way.h"
@@ -325,7 +326,7 @@ void UseLine(const RecordedLine& line, const RecordedWay& way, ScenarioSpec& pla
 }
 
 /// Finds the scale of the intensities in the first frames.
-void UseIntensities(const std::filesystem::path& recording, InsertPlan& plan) {
+void UseIntensityScale(const std::filesystem::path& recording, InsertPlan& plan) {
   constexpr std::size_t kMostFrames = 10;
   const auto opened = OpenRecording(recording);
   IntensityScaleFinder finder(opened->info());
@@ -362,6 +363,7 @@ RecordedRun ReadRecordedRun(const std::filesystem::path& plan_file,
   UseSensorOf(recording, run.plan, run.remarks);
   const RecordingWorldSpec& world = *run.plan.world.recording;
   run.way = ReadRecordedWay(recording, world, run.plan.lidar, run.remarks);
+  run.intensities = MeasureIntensities(plan_file, recording);
   const std::string source = ShownPath(recording);
   run.line =
       world.alignment ? GivenLine(*world.alignment, run.way, source) : LineOfWay(run.way, source);
@@ -375,8 +377,9 @@ ScenarioSpec OnRecordedLine(const RecordedRun& run, ScenarioSpec plan) {
   return plan;
 }
 
-InsertPlan MakeInsertPlan(const RecordedRun& run, const ScenarioSpec& plan_spec) {
+InsertPlan MakeInsertPlan(const RecordedRun& run, ScenarioSpec plan_spec) {
   InsertPlan plan;
+  const std::string intensities = UseIntensities(run.intensities, plan_spec);
   ScenarioSpec& scenario = plan.scenario;
   scenario = OnRecordedLine(run, plan_spec);
   plan.identity = IdentityOf(plan_spec);
@@ -391,7 +394,8 @@ InsertPlan MakeInsertPlan(const RecordedRun& run, const ScenarioSpec& plan_spec)
   plan.frame_times_ns = run.way.frame_times_ns;
   plan.world = std::make_shared<const RecordedWorld>(run.way, things, std::move(stands));
   SetPlaces(run.line, *things, plan);
-  UseIntensities(run.recording, plan);
+  UseIntensityScale(run.recording, plan);
+  if (!intensities.empty()) plan.remarks.push_back(intensities);
   return plan;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "generator/extras/insert/insert_plan.h"
+#include "generator/extras/insert/plan/recorded_intensities.h"
 #include "generator/extras/insert/plan/recorded_line.h"
 #include "generator/extras/insert/plan/recorded_way.h"
 #include "railcast/scenario.h"
@@ -19,6 +20,7 @@ struct RecordedRun {
   ScenarioSpec plan;  ///< As it was written, with the recording's sensor if it names none.
   RecordedWay way{};
   RecordedLine line{};
+  RecordedIntensities intensities{};
   std::vector<std::string> remarks{};  ///< What was found or assumed on the way.
 
   [[nodiscard]] std::uint32_t num_frames() const {
@@ -48,9 +50,10 @@ struct RecordedRun {
 /// @throws InputError as ReadInsertPlan() does for what the plan has and for places of objects.
 [[nodiscard]] ScenarioSpec OnRecordedLine(const RecordedRun& run, ScenarioSpec plan);
 
-/// Makes such a plan ready to be simulated. Of the recording, frames near objects are read for the
-/// ground, and the first few for their intensities.
+/// Makes such a plan ready to be simulated, with `run.intensities` (UseIntensities()), which its
+/// identity has, too. Of the recording, frames near objects are read for the ground, and the first
+/// few for the scale of their intensities.
 /// @throws InputError as OnRecordedLine() does.
-[[nodiscard]] InsertPlan MakeInsertPlan(const RecordedRun& run, const ScenarioSpec& plan);
+[[nodiscard]] InsertPlan MakeInsertPlan(const RecordedRun& run, ScenarioSpec plan);
 
 }  // namespace railcast

@@ -167,12 +167,12 @@ struct CutThing {
 CutThing CutOutOfCapture(const RealThing& thing) {
   const fs::path recording = fs::path(RAILCAST_SHARED_DATA_DIR) / thing.recording;
   const TemporaryDirectory folder;
-  CutThing cut{
-      .thing = thing,
-      .plan = ReadInsertPlan(WritePlan(folder.path(), R"({"poses": "standing"})", ObjectsOf(thing)),
-                             recording),
-      .firings = {},
-      .real = {}};
+  CutThing cut{.thing = thing,
+               .plan = ReadInsertPlan(WritePlan(folder.path(), R"({"poses": "standing"})",
+                                                ObjectsOf(thing), R"("fidelity": "footprint", )"),
+                                      recording),
+               .firings = {},
+               .real = {}};
   const auto opened = OpenRecording(recording);
   RecordedFrame recorded;
   for (std::uint32_t i = 0; i <= thing.frame; ++i) recorded = (*opened->Next())();
