@@ -269,6 +269,25 @@ std::vector<double> InverseSnr(const std::vector<NoiseTrial>& trials, const FitS
   return inverse;
 }
 
+void AddIntensities(const ReceiverFigures& figures, FitResult& result) {
+  const auto add = [&](const char* place, const char* title, Estimate estimate,
+                       const std::string& too_few) {
+    FittedParameter parameter{place, title, "", estimate, ""};
+    if (!estimate.is_enough()) {
+      parameter.remark = "not identified: " + too_few;
+    } else if (estimate.low <= 0.0) {
+      parameter.estimate = NotEnough(estimate.num);
+      parameter.remark = "not identified: its interval holds 0";
+    }
+    result.parameters.push_back(parameter);
+  };
+  add("lidar/receiver/intensity_noise", "Intensity noise", figures.intensity_noise.robust,
+      figures.has_moved ? "the sensor moved"
+                        : "fewer than two turns, or too few smooth surfaces of 0.12 to 0.25");
+  add("lidar/receiver/channel_gain", "Gain of single channels", figures.channel_gain,
+      "too few channels with smooth surfaces");
+}
+
 FitResult FitModel(RecordedTrials& trials, const FitSettings& settings) {
   FitResult result;
   FitNoise(trials, settings, result);

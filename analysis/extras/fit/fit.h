@@ -9,6 +9,7 @@
 
 #include "analysis/estimate/estimate.h"
 #include "analysis/extras/fit/recorded_trials.h"
+#include "analysis/extras/preset/receiver_figures.h"
 
 namespace railcast {
 
@@ -31,8 +32,8 @@ struct ChannelBiases {
 [[nodiscard]] ChannelBiases TakeOutChannels(RecordedTrials& trials);
 
 /// Takes the changes from frame to frame for the residuals, where they are at least 500 and
-/// smaller: then the sensor stood, and the surfaces' roughness is in the residuals alone. Points
-/// without a change are left out.
+/// smaller: then the sensor stood, or moved by less than the surfaces' roughness, which is in the
+/// residuals alone. Points without a change are left out.
 /// @returns Whether it did.
 bool TakeChanges(RecordedTrials& trials);
 
@@ -143,6 +144,10 @@ struct FitResult {
 /// @pre The settings have a range and reflectances.
 [[nodiscard]] std::vector<double> InverseSnr(const std::vector<NoiseTrial>& trials,
                                              const FitSettings& settings);
+
+/// Adds noise and gain of the intensities as `preset` measures them. No replay judges them.
+/// @param figures Of intensities that are reflectances.
+void AddIntensities(const ReceiverFigures& figures, FitResult& result);
 
 /// Estimates every parameter that the trials identify.
 /// @param trials The channels' biases are subtracted from their residuals, in place.

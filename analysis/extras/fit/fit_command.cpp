@@ -86,12 +86,6 @@ FitSettings SettingsOf(const FitOptions& options,
   return settings;
 }
 
-/// The planes of the first source, where the scenario can be replayed before them.
-FitProof ProofOf(const std::vector<std::filesystem::path>& sources) {
-  const auto recording = OpenRecording(sources.front());
-  return FitProof(WholeTurns(*recording, FitProof::kMostTurns), ShownPath(sources.front()));
-}
-
 /// Judges what was fitted by the rung that was. A sequence's own scenario need not be one that can
 /// be replayed.
 void Judge(const FitProof& proof,
@@ -126,10 +120,15 @@ int RunFit(const FitOptions& options, const std::string& command_line) {
     const auto num = static_cast<double>(*info.num_frames * sources.size());
     progress.Show("frames", static_cast<double>(num_frames) / num);
   });
+  const std::vector<RecordedFrame> turns =
+      WholeTurns(*OpenRecording(sources.front()), FitProof::kMostTurns);
   std::optional<FitProof> proof;
-  if (scenario) proof = ProofOf(sources);
+  if (scenario) proof.emplace(turns, ShownPath(sources.front()));
   if (options.scenario && proof->has_planes()) trials.losses = proof->Losses();
   FitResult result = FitModel(trials, settings);
+  if (settings.is_physical && settings.has_reflectances) {
+    AddIntensities(FindReceiverFigures(turns), result);
+  }
   if (proof) Judge(*proof, *scenario, options, result);
   progress.End();
 

@@ -28,6 +28,8 @@ double* Find(ScenarioSpec& scenario, const std::string& place) {
       {"lidar/receiver/range_noise_floor_m", &receiver.range_noise_floor_m},
       {"lidar/receiver/range_noise_scale_m", &receiver.range_noise_scale_m},
       {"lidar/receiver/pointing_jitter_deg", &receiver.pointing_jitter_deg},
+      {"lidar/receiver/intensity_noise", &receiver.intensity_noise},
+      {"lidar/receiver/channel_gain", &receiver.channel_gain},
       {"weather/rain_dropout_per_m", &scenario.weather.rain_dropout_per_m}};
   for (const auto& [name, value] : places) {
     if (place == name) return value;

@@ -96,13 +96,19 @@ ReplayVerdict VerdictOf(const Figure& before, const Figure& after) {
   return gain_of_all < 0.0 ? ReplayVerdict::kWorse : ReplayVerdict::kNotTold;
 }
 
-/// Indices of parameters that have a value, those in one place that mean nothing without each
-/// other: the line of the published noise.
+/// No figure of ranges or holes tells of it.
+bool IsOfIntensities(const FittedParameter& parameter) {
+  return parameter.place == "lidar/receiver/intensity_noise" ||
+         parameter.place == "lidar/receiver/channel_gain";
+}
+
+/// Indices of parameters that have a value to be judged, those in one place that mean nothing
+/// without each other: the line of the published noise.
 std::vector<std::vector<std::size_t>> StepsOf(const FitResult& result) {
   std::vector<std::vector<std::size_t>> steps;
   for (std::size_t i = 0; i < result.parameters.size(); ++i) {
     const FittedParameter& parameter = result.parameters[i];
-    if (!parameter.is_written()) continue;
+    if (!parameter.is_written() || IsOfIntensities(parameter)) continue;
     if (parameter.place == "lidar/plausibility/noise_sigma1" && !steps.empty()) {
       steps.back().push_back(i);
     } else {

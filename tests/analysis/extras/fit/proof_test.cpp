@@ -135,6 +135,43 @@ TEST(Fit, TakesNoRoughnessForNoiseWhereTheSensorStood) {
   EXPECT_GT(FloorOf_m(false), 0.025);
 }
 
+// At four standard errors. Textures finer than columns would add to the noise.
+TEST(Fit, FindsNoiseAndGainOfTheIntensities) {
+  ScenarioSpec scenario = PresetScenario("vls128");
+  for (Material& material : scenario.materials) {
+    material.reflectivity = 0.45;
+    material.texture = 0.0;
+  }
+  const std::vector<RecordedFrame> turns = RecordYard(scenario);
+  const ReceiverFigures figures = FindReceiverFigures(turns);
+  FitResult result;
+  AddIntensities(figures, result);
+  ScenarioSpec plain = scenario;
+  plain.lidar.receiver.intensity_noise = plain.lidar.receiver.channel_gain = 0.0;
+  FitProof({turns.front()}, "yard").Judge(plain, result);
+  ASSERT_EQ(result.parameters.size(), 2U);
+  for (const FittedParameter& parameter : result.parameters) {
+    const Estimate& estimate = parameter.estimate;
+    ASSERT_TRUE(parameter.is_written()) << parameter.remark;
+    EXPECT_EQ(parameter.proof.verdict, ReplayVerdict::kNotTold);
+    EXPECT_NEAR(estimate.value, ScenarioValue(scenario, parameter.place),
+                estimate.high - estimate.low);
+    EXPECT_NEAR(ScenarioValue(FittedScenario(plain, result), parameter.place), estimate.value,
+                1e-5);
+  }
+}
+
+TEST(Fit, GivesNoValueForIntensitiesThatAreNotTold) {
+  ReceiverFigures figures;
+  figures.has_moved = true;
+  figures.channel_gain = {0.05, -0.02, 0.12, 20};
+  FitResult result;
+  AddIntensities(figures, result);
+  EXPECT_EQ(result.parameters[0].remark, "not identified: the sensor moved");
+  EXPECT_EQ(result.parameters[1].remark, "not identified: its interval holds 0");
+  for (const FittedParameter& parameter : result.parameters) EXPECT_FALSE(parameter.is_written());
+}
+
 struct RealSensor {
   std::string name;
   std::string file;
