@@ -1,6 +1,5 @@
 #include "generator/extras/insert/plan/recorded_intensities.h"
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -24,11 +23,6 @@ void FindGiven(const std::filesystem::path& plan_file, RecordedIntensities& reco
   using Json = nlohmann::json;
   const Json plan = Json::parse(ReadFileWhole(plan_file));
   recorded.is_noise_given = plan.contains(Json::json_pointer("/lidar/receiver/intensity_noise"));
-  const Json materials = plan.value("materials", Json());
-  recorded.is_texture_given =
-      materials.is_array() && std::ranges::any_of(materials, [](const Json& material) {
-        return material.contains("texture");
-      });
 }
 
 std::string WhyNot(const GridTurns& grids, const TurnNoise& noise) {
@@ -80,11 +74,12 @@ std::string UseTexture(const RecordedIntensities& recorded, ScenarioSpec& plan) 
   const double texture = std::sqrt(std::log1p(std::expm1(seen * seen) / kept));
   if (texture > 2.0) return "textures of the materials' file, since beams are too wide to tell";
   for (Material& material : plan.materials) {
-    if (material.retroreflectance == 0.0) material.texture = texture;
+    const bool is_like = material.texture == 0.0 && material.retroreflectance == 0.0;
+    if (is_like) material.texture = texture;
   }
   return "texture of " + ShortText(seen) + " 0.1 m apart, at " + ShortText(recorded.range_m) +
          " m " + FigureText(recorded.texture, 1.0) + ", which is " + ShortText(texture) +
-         " from cell to cell";
+         " from cell to cell, for materials without one";
 }
 
 }  // namespace
@@ -118,16 +113,15 @@ std::string UseIntensities(const RecordedIntensities& recorded, ScenarioSpec& pl
   const EffectSet effects = EffectsOf(plan);
   const bool has_things = !plan.world.objects.empty() || !plan.world.trains.empty();
   const bool wants_noise = effects.intensity_noise && !recorded.is_noise_given;
-  const bool wants_texture = effects.texture && !recorded.is_texture_given;
-  if (recorded.is_simulated || !has_things || !(wants_noise || wants_texture)) return "";
+  if (recorded.is_simulated || !has_things || !(wants_noise || effects.texture)) return "";
   if (!recorded.why_not.empty()) {
     return "intensities of what is put in: noise and texture of the sensor's and the materials' "
            "files, since the recording does not tell its own: " +
            recorded.why_not;
   }
   std::string used = wants_noise ? UseNoise(recorded, plan) : "";
-  if (wants_noise && wants_texture) used += "; ";
-  if (wants_texture) used += UseTexture(recorded, plan);
+  if (wants_noise && effects.texture) used += "; ";
+  if (effects.texture) used += UseTexture(recorded, plan);
   return "intensities of what is put in, as measured on the recording's smooth surfaces: " + used;
 }
 

@@ -17,8 +17,7 @@ struct RecordedIntensities {
   JackknifedFigure noise{};    ///< Standard deviation of log intensity from turn to turn.
   JackknifedFigure texture{};  ///< Its semideviation 0.1 m apart in a ring, less the noise.
   double range_m{};            ///< Mean range of the surfaces of the texture.
-  /// Whether the plan's own file gives its sensor `intensity_noise`, or materials a `texture`.
-  bool is_noise_given{}, is_texture_given{};
+  bool is_noise_given{};       ///< Whether the plan's own file has the sensor's `intensity_noise`.
 };
 
 /// Measures turns in their order (FindTurnNoise()).
@@ -31,10 +30,10 @@ struct RecordedIntensities {
 [[nodiscard]] RecordedIntensities MeasureIntensities(const std::filesystem::path& plan_file,
                                                      const std::filesystem::path& recording);
 
-/// Gives the plan's sensor the noise that was measured, and its materials a texture with which a
-/// surface that faces the beam at `range_m` has the measured semideviation; retroreflectors, which
-/// were not measured, keep theirs. What the plan's own file gives, and what the recording does not
-/// say, stays as it is. What is within two standard errors of 0 is 0.
+/// Gives the plan's sensor the noise that was measured, unless its own file does, and materials
+/// without a texture one with which a surface that faces the beam at `range_m` has the measured
+/// semideviation. Materials with one are known better, and retroreflectors were not measured. What
+/// the recording does not say stays as it is. What is within two standard errors of 0 is 0.
 /// @returns What is used and from where, in a sentence for the user; empty where the plan puts
 ///   nothing in that has either.
 [[nodiscard]] std::string UseIntensities(const RecordedIntensities& recorded, ScenarioSpec& plan);

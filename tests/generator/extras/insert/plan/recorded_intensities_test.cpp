@@ -97,6 +97,7 @@ std::vector<InsertedFrame> InsertInto(const std::vector<RecordedFirings>& turns,
 /// The texture from cell to cell by which the materials get the measured one.
 double CellTexture(const RecordedIntensities& recorded, ScenarioSpec scenario) {
   scenario.world.objects.emplace_back();
+  for (Material& material : scenario.materials) material.texture = 0.0;
   (void)UseIntensities(recorded, scenario);
   return scenario.materials.front().texture;
 }
@@ -173,6 +174,9 @@ TEST(RecordedIntensities, GiveWayToThePlansOwn) {
   recorded.is_noise_given = true;
   EXPECT_THAT(UseIntensities(recorded, plan), Not(HasSubstr("noise of")));
   EXPECT_EQ(plan.lidar.receiver.intensity_noise, 0.05);
+  EXPECT_EQ(plan.materials.front().texture, 0.1);
+  plan.materials.front().texture = 0.0;
+  (void)UseIntensities(recorded, plan);
   EXPECT_GT(plan.materials.front().texture, 0.2);
   recorded = {.is_simulated = true};
   EXPECT_EQ(UseIntensities(recorded, plan), "");
@@ -186,14 +190,15 @@ void PutWallsInto(const fs::path& recording) {
   for (const LoopThing& wall : WallsAt(2.0)) {
     const auto number = [](double value) { return std::to_string(value); };
     walls += std::string(walls.empty() ? "" : ", ") + R"({"name": "wall)" +
-             std::to_string(walls.size()) + R"(", "type": "box", "frame": 0, "x_m": )" +
+             std::to_string(walls.size()) +
+             R"(", "type": "box", "material": "concrete", "frame": 0, "x_m": )" +
              number(wall.ahead_m) + ", \"y_m\": " + number(wall.left_m) +
              ", \"h_m\": -2, \"size_m\": [" + number(wall.size_m.x()) + ", " +
              number(wall.size_m.y()) + ", 9]}";
   }
   InsertPlan plan =
       ReadInsertPlan(WritePlan(folder.path(), R"({"poses": "standing"})",
-                               ", \"objects\": [" + walls + "]", R"("fidelity": "footprint", )"),
+                               ", \"objects\": [" + walls + "]", R"("fidelity": "surface", )"),
                      recording);
   EXPECT_THAT(plan.remarks.back(), HasSubstr("as measured on the recording's smooth surfaces"));
   for (Material& material : plan.scenario.materials) material.reflectivity = 0.22;
