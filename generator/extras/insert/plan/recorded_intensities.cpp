@@ -77,9 +77,10 @@ std::string UseTexture(const RecordedIntensities& recorded, ScenarioSpec& plan) 
     const bool is_like = material.texture == 0.0 && material.retroreflectance == 0.0;
     if (is_like) material.texture = texture;
   }
-  return "texture of " + ShortText(seen) + " 0.1 m apart, at " + ShortText(recorded.range_m) +
-         " m " + FigureText(recorded.texture, 1.0) + ", which is " + ShortText(texture) +
-         " from cell to cell, for materials without one";
+  return "for materials without a texture one of " + ShortText(seen) +
+         " between returns 0.1 m apart, " + ShortText(recorded.range_m) + " m away " +
+         FigureText(recorded.texture, 1.0) + ", which is " + ShortText(texture) +
+         " from cell to cell";
 }
 
 }  // namespace
