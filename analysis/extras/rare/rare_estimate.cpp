@@ -1,6 +1,7 @@
 #include "analysis/extras/rare/rare_event.h"
 
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <numeric>
 #include <string_view>
@@ -18,10 +19,10 @@ bool HasFailed(double score) {
   return score < 0.0;
 }
 
-std::vector<double> CheapTerms(const WeightedTrials& trials) {
+std::vector<double> CheapTerms(const WeightedTrials& trials, const std::vector<double>& weights) {
   std::vector<double> terms;
-  for (std::size_t i = 0; i < trials.weights.size(); ++i) {
-    terms.push_back(HasFailed(trials.scores[i].cheap) ? trials.weights[i] : 0.0);
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    terms.push_back(HasFailed(trials.scores[i].cheap) ? weights[i] : 0.0);
   }
   return terms;
 }
@@ -67,11 +68,24 @@ RareLevel LevelOf(const std::vector<double>& terms, double more_squares = 0.0) {
   return level;
 }
 
-Estimate IntervalOf(double mean, double squared_error, double effective, std::uint64_t num) {
+double ChiSquared(double degrees, double share) {
+  return boost::math::quantile(boost::math::chi_squared(degrees), share);
+}
+
+// @param terms Whose sum is the mean, but for signs.
+Estimate IntervalOf(double mean,
+                    double squared_error,
+                    const std::vector<double>& terms,
+                    std::uint64_t num) {
   if (mean <= 0.0) return NotEnough(num);
-  const double relative = std::sqrt(squared_error) / mean;
-  const double factor = std::exp(StudentQuantile(std::max(effective - 1.0, 1.0)) * relative);
-  return {std::min(mean, 1.0), std::min(mean / factor, 1.0), std::min(mean * factor, 1.0), num};
+  const auto quantile = [](double sum, double variance, double share) {
+    constexpr double kMostDegrees = 1e9;  // Where all terms are equal.
+    const double degrees = std::min(2.0 * sum * sum / variance, kMostDegrees);
+    return std::min(sum / degrees * ChiSquared(degrees, share), 1.0);
+  };
+  const double largest = *std::ranges::max_element(terms);
+  return {std::min(mean, 1.0), quantile(mean, squared_error, kTail),
+          quantile(mean + largest, squared_error + largest * largest, 1.0 - kTail), num};
 }
 
 double UnknownShare(const WeightedTrials& trials, double RareScores::*level) {
@@ -152,11 +166,14 @@ RareFigure EstimateRareFigure(const RareEvidence& evidence) {
   std::vector<double> all_terms;
   double squared_error = 0.0;
   for (std::size_t i = 0; i < 2; ++i) {
-    const std::vector<double> terms = CheapTerms(evidence.cheap[i]);
+    const WeightedTrials& trials = evidence.cheap[i];
+    const std::vector<double> terms = CheapTerms(trials, trials.weights);
     const RareLevel level = LevelOf(terms);
     const auto num = static_cast<double>(level.num);
-    figure.by_proposal[i] =
-        IntervalOf(level.mean, level.variance / num, EffectiveOf(terms), level.num);
+    std::vector<double> own_terms = CheapTerms(trials, trials.own_weights);
+    const RareLevel own = LevelOf(own_terms);
+    for (double& term : own_terms) term /= num;
+    figure.by_proposal[i] = IntervalOf(own.mean, own.variance / num, own_terms, own.num);
     figure.cheap.num += level.num;
     figure.cheap.mean += 0.5 * level.mean;
     figure.cheap.variance += 0.5 * level.variance;
@@ -175,6 +192,7 @@ RareFigure EstimateRareFigure(const RareEvidence& evidence) {
       evidence.pairs.weights.empty() ? figure.cheap.num : figure.correction.num;
   const std::uint64_t num_failed = NumFailed(evidence);
   const double unknown = UnknownShare(evidence);
+  figure.is_plain = IsPlain(evidence);
   if (num_failed == 0 && unknown > 0.0) {
     figure.refusal = UnknownText(unknown);
     return figure;
@@ -188,14 +206,13 @@ RareFigure EstimateRareFigure(const RareEvidence& evidence) {
   figure.largest_share = *std::ranges::max_element(all_terms) /
                          std::accumulate(all_terms.begin(), all_terms.end(), 0.0);
   figure.effective = EffectiveOf(all_terms);
-  figure.is_plain = IsPlain(evidence);
   const double mean = figure.cheap.mean + figure.correction.mean;
   figure.refusal = RefusalOf(figure, mean, unknown);
   figure.probability = NotEnough(figure.cheap.num + figure.correction.num);
   if (figure.is_known()) {
-    figure.probability =
-        figure.is_plain ? Proportion(num_failed, figure.cheap.num)
-                        : IntervalOf(mean, squared_error, figure.effective, figure.probability.num);
+    figure.probability = figure.is_plain
+                             ? Proportion(num_failed, figure.cheap.num)
+                             : IntervalOf(mean, squared_error, all_terms, figure.probability.num);
   }
   return figure;
 }

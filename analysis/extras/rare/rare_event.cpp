@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <utility>
 
 namespace railcast {
@@ -46,7 +47,7 @@ class RareRunner {
       }
       run_.num_searching = static_cast<std::uint32_t>(run_.trials.size());
       for (std::size_t i = 0; i < 2; ++i) {
-        if (!Try(proposals_[i], num_pilot, false, cheap_[i])) return std::nullopt;
+        if (!TryFor(i, num_pilot)) return std::nullopt;
       }
     }
     if (settings_.has_pairs) {
@@ -63,7 +64,7 @@ class RareRunner {
         more->num_cheap = 2 * num_pilot;
       }
       for (std::size_t i = 0; i < 2; ++i) {
-        if (!Try(proposals_[i], more->num_cheap / 2, false, cheap_[i])) return std::nullopt;
+        if (!TryFor(i, more->num_cheap / 2)) return std::nullopt;
       }
       if (!Try(pair_proposal_, more->num_pairs, true, pairs_)) return std::nullopt;
       run_.figure = EstimateRareFigure(Evidence());
@@ -127,9 +128,8 @@ class RareRunner {
     return *place;
   }
 
-  // Of a point that any of several proposals may have drawn, as often each (the balance heuristic;
-  // Veach and Guibas 1995).
-  static double WeightOfAll(const std::vector<Proposal>& proposals, const RarePoint& point) {
+  // Of a point that any of several proposals may have drawn, as often each.
+  static double WeightOfAll(std::span<const Proposal> proposals, const RarePoint& point) {
     double sum = 0.0;
     for (const Proposal& proposal : proposals) sum += 1.0 / WeightOf(proposal, point);
     return static_cast<double>(proposals.size()) / sum;
@@ -174,7 +174,13 @@ class RareRunner {
   }
 
   [[nodiscard]] RareEvidence Evidence() const {
-    return {{TrialsOf(cheap_[0]), TrialsOf(cheap_[1])}, TrialsOf(pairs_)};
+    RareEvidence evidence{{TrialsOf(cheap_[0]), TrialsOf(cheap_[1])}, TrialsOf(pairs_)};
+    for (std::size_t i = 0; i < 2; ++i) {
+      for (const std::uint32_t index : cheap_[i].indices) {
+        evidence.cheap[i].own_weights.push_back(WeightOf(proposals_[i], run_.trials[index].point));
+      }
+    }
+    return evidence;
   }
 
   // How many trials of a level are needed, of which so many reach the wanted error.
@@ -194,10 +200,16 @@ class RareRunner {
     const RareLevel& level = run_.figure.cheap;
     const bool has_room = run_.trials.size() + settings_.num_per_stage <= settings_.most_trials;
     if (settings_.has_pairs || run_.figure.is_plain || !has_room) return false;
+    if (level.mean <= 0.0) return true;
     const double error = settings_.precision * level.mean / NormalQuantile();
     const double lacking =
         WantedOf(level, level.variance / (error * error)) - static_cast<double>(level.num);
     return level.mean * (1.0 - level.mean) / (error * error) < lacking;
+  }
+
+  [[nodiscard]] bool HasMetFailures() const {
+    return std::ranges::any_of(run_.scores,
+                               [](const RareScores& scores) { return scores.cheap < 0.0; });
   }
 
   // How many more are needed; nothing if there are enough, or if more would not help.
@@ -207,9 +219,14 @@ class RareRunner {
     const RareFigure& figure = run_.figure;
     const double mean = figure.cheap.mean + figure.correction.mean;
     const auto num_trials = static_cast<std::uint32_t>(run_.trials.size());
-    if (figure.cheap.mean <= 0.0 || mean <= 0.0 || num_trials >= settings_.most_trials) {
-      return std::nullopt;
+    if (num_trials >= settings_.most_trials) return std::nullopt;
+    if (figure.cheap.mean <= 0.0 && !settings_.has_pairs && HasMetFailures()) {
+      const auto more =
+          static_cast<std::uint32_t>((kMostGrowth - 1.0) * static_cast<double>(figure.cheap.num));
+      const std::uint32_t num = std::min(more, settings_.most_trials - num_trials);
+      return num < 2 ? std::nullopt : std::optional(Numbers{num - num % 2, 0});
     }
+    if (figure.cheap.mean <= 0.0 || mean <= 0.0) return std::nullopt;
     const double error = settings_.precision * mean / NormalQuantile();
     const double pair_cost = settings_.has_pairs ? settings_.pair_cost : 0.0;
     const double sum =
@@ -235,6 +252,17 @@ class RareRunner {
     }
     if (more.num_cheap + more.num_pairs == 0) return std::nullopt;
     return more;
+  }
+
+  // Draws and tries more of the figure's cheap trials by one of its proposals. Returns false if it
+  // was stopped.
+  bool TryFor(std::size_t proposal, std::uint32_t num) {
+    const std::size_t begin = run_.trials.size();
+    if (!Try(proposals_[proposal], num, false, cheap_[proposal])) return false;
+    for (std::size_t i = begin; i < run_.trials.size(); ++i) {
+      run_.trials[i].weight = WeightOfAll(proposals_, run_.trials[i].point);
+    }
+    return true;
   }
 
   // Draws and tries points. Returns false if it was stopped.

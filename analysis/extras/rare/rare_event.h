@@ -21,8 +21,9 @@ struct RareScores {
 
 /// Trials that were drawn by one proposal.
 struct WeightedTrials {
-  std::vector<double> weights{};  ///< p / q.
+  std::vector<double> weights{};  ///< p / q; of cheap trials, q is the mean of both proposals.
   std::vector<RareScores> scores{};
+  std::vector<double> own_weights{};  ///< Of cheap trials, p / q by the proposal that drew them.
 };
 
 /// The mean over independent trials.
@@ -34,8 +35,9 @@ struct RareLevel {
 
 /// All that a figure rests on.
 struct RareEvidence {
-  std::array<WeightedTrials, 2> cheap{};  ///< By two proposals that were found independently.
-  WeightedTrials pairs{};                 ///< Tried on both levels; empty with one level only.
+  /// By two proposals that were found independently, as many by each.
+  std::array<WeightedTrials, 2> cheap{};
+  WeightedTrials pairs{};  ///< Tried on both levels; empty with one level only.
 };
 
 /// The probability of failure.
@@ -46,7 +48,7 @@ struct RareFigure {
   double at_most = std::numeric_limits<double>::quiet_NaN();
   double effective{};                     ///< Number of equal weights with as much error.
   double largest_share{};                 ///< Of one trial in the sum of all weights that count.
-  std::array<Estimate, 2> by_proposal{};  ///< On the cheap level.
+  std::array<Estimate, 2> by_proposal{};  ///< On the cheap level, by each alone.
   RareLevel cheap{};
   RareLevel correction{};  ///< Dear minus cheap.
   bool is_plain{};         ///< Whether p has drawn all, on one level: a share of equal trials.
@@ -56,9 +58,12 @@ struct RareFigure {
 
 /// Estimates the probability of failure on the dear level, mean(w 1(cheap fails)) over the cheap
 /// trials plus mean(w (1(dear fails) - 1(cheap fails))) over the pairs (two levels; Giles 2015,
-/// Acta Numerica 24), with the interval of the variances of both means, Student's in the logarithm.
-/// That of the correction counts two disagreements more than were seen, so that it is not 0 where
-/// none was (rule of three).
+/// Acta Numerica 24), with Fay and Feuer's interval (1997, Statistics in Medicine 16) of the
+/// variances of both means, whose upper end allows for one more failure of the largest weight. The
+/// variance of the correction counts two disagreements more than were seen, so that it is not 0
+/// where none was (rule of three). A cheap trial is weighed as one that either proposal may have
+/// drawn (the balance heuristic; Veach and Guibas 1995), so that a kind of failure that one of them
+/// has missed has no great weights.
 ///
 /// Of trials that p has drawn, on one level, it is the share that failed, with Wilson's interval.
 /// Otherwise there is no figure if the intervals of the two proposals do not overlap, if
@@ -74,7 +79,7 @@ struct RareFigure {
 struct RareTrial {
   std::uint32_t index{};  ///< Its number, from which all follows that is random beside the point.
   RarePoint point{};
-  double weight{};  ///< p / q.
+  double weight{};  ///< p / q, in the search by the stage, later as in WeightedTrials.
   bool is_pair{};   ///< Whether it is tried on both levels.
 };
 
@@ -107,7 +112,8 @@ struct RareRun {
 /// that tenth fails (cross-entropy; Rubinstein and Kroese 2004). Trials by both proposals, and
 /// pairs by a third one that has been fitted to trials with scores near 0, give the figure. Their
 /// numbers go by sqrt(variance / cost) of a pilot (Giles 2015), until the interval has the width
-/// asked for. The result is a function of the arguments and scores alone.
+/// asked for. On one level, p draws all anew where that takes fewer trials, or where failures that
+/// the searches met are not met again. The result is a function of the arguments and scores alone.
 /// @return Nothing if the experiment was stopped.
 [[nodiscard]] std::optional<RareRun> RunRareEvent(const std::vector<RareFactor>& factors,
                                                   const RareSettings& settings,

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -64,9 +66,10 @@ struct RareCoverage {
 RareCoverage CoverageOf(const std::vector<RareFactor>& factors,
                         RareSettings settings,
                         const RareExperiment& experiment,
-                        double probability) {
+                        double probability,
+                        std::uint32_t num_estimates = kNumEstimates) {
   RareCoverage coverage;
-  for (std::uint32_t i = 0; i < kNumEstimates; ++i) {
+  for (std::uint32_t i = 0; i < num_estimates; ++i) {
     settings.seed = 1000 + i * 1'000'003ULL;
     const auto run = RunRareEvent(factors, settings, experiment);
     const RareFigure& figure = run->figure;
@@ -93,6 +96,54 @@ TEST(RareEvent, CoversAProbabilityOfTwoModesInTenDimensions) {
   EXPECT_GE(coverage.num_covering, 0.93 * coverage.num_known);
   // The mean of so many has an error of about 1 %.
   EXPECT_NEAR(coverage.mean, probability, 0.04 * probability);
+}
+
+/// Scores of one level, of the point and the number of a trial.
+RareExperiment OneLevel(const std::function<double(const RarePoint&, std::uint32_t)>& score) {
+  return [score](const std::vector<RareTrial>& trials) {
+    std::vector<RareScores> scores;
+    for (const RareTrial& trial : trials) scores.push_back({score(trial.point, trial.index)});
+    return std::optional(scores);
+  };
+}
+
+TEST(RareEvent, CoversAProbabilityOfWhichASearchMayMissHalf) {
+  // A hundred trials of a stage often find but one of the two modes: by the weights of one proposal
+  // alone, 87 % of the intervals cover.
+  constexpr double kLowThreshold = 2.5750;  // 1 - (1 - 5.012e-3)^2 = 0.01.
+  const double passes = 1.0 - NormalTail(kLowThreshold);
+  const auto score = [](const RarePoint& point, std::uint32_t) {
+    return ToyScore(point) + kLowThreshold - kThreshold;
+  };
+  const RareCoverage coverage = CoverageOf(std::vector<RareFactor>(10), {.num_per_stage = 100},
+                                           OneLevel(score), 1.0 - passes * passes);
+  EXPECT_GE(coverage.num_known, 9 * kNumEstimates / 10);
+  EXPECT_GE(coverage.num_covering, 0.93 * coverage.num_known);
+  EXPECT_NEAR(coverage.mean, 1.0 - passes * passes, 3e-4);
+  EXPECT_LE(2.0 * coverage.trials, coverage.plain_trials);
+}
+
+TEST(RareEvent, CoversAProbabilityWhereNoiseDecidesToo) {
+  // The noise makes some trials fail that no proposal favours: great weights, of which the upper
+  // end of the interval must know; with it as great as the factor, no proposal may help at all.
+  constexpr std::uint32_t kNum = 400;
+  for (const double noise : {0.5, 1.0}) {
+    const double threshold = 2.3263 * std::hypot(1.0, noise);  // P = 0.01.
+    const auto score = [&](const RarePoint& point, std::uint32_t index) {
+      // Of its own in each run, since the point is.
+      const auto key = std::bit_cast<std::uint64_t>(point[0]);
+      const auto words = RandomWords(key, RandomUse::kNoise, 0, index);
+      const double one = UnitFloat(words[0]);
+      const double other = UnitFloat(words[1]);
+      const double radius = std::sqrt(-2.0 * std::log(1.0 - one));
+      const double normal = radius * std::cos(2.0 * std::numbers::pi * other);
+      return threshold - point[0] - noise * normal;
+    };
+    const RareCoverage coverage =
+        CoverageOf(std::vector<RareFactor>(3), {.num_per_stage = 100}, OneLevel(score), 0.01, kNum);
+    EXPECT_GE(coverage.num_known, 0.98 * kNum) << noise;
+    EXPECT_GE(coverage.num_covering, 0.93 * coverage.num_known) << noise;
+  }
 }
 
 // A box on a plane in fog: the power that comes back falls as exp(-2 a r) / r^2, so that the box is
@@ -131,25 +182,17 @@ double FogProbability() {
 TEST(RareEvent, CoversTheProbabilityOfABoxInFog) {
   const std::vector<RareFactor> factors = {
       {.probabilities = {0.9, 0.1}}, {.only_with = RareFactor::Condition{0, 1}}, {}};
-  const RareExperiment experiment = [](const std::vector<RareTrial>& trials) {
-    std::vector<RareScores> scores;
-    for (const RareTrial& trial : trials) scores.push_back({FogScore(trial.point)});
-    return std::optional(scores);
-  };
+  const auto score = [](const RarePoint& point, std::uint32_t) { return FogScore(point); };
   const RareCoverage coverage =
-      CoverageOf(factors, {.num_per_stage = 200}, experiment, FogProbability());
+      CoverageOf(factors, {.num_per_stage = 200}, OneLevel(score), FogProbability());
   EXPECT_GE(coverage.num_known, 9 * kNumEstimates / 10);
   EXPECT_GE(coverage.num_covering, 0.93 * coverage.num_known);
 }
 
 TEST(RareEvent, CostsNoMoreThanPlainTrialsWhereFailuresAreFrequent) {
-  const RareExperiment experiment = [](const std::vector<RareTrial>& trials) {
-    std::vector<RareScores> scores;
-    for (const RareTrial& trial : trials) scores.push_back({trial.point[0] + 1.1503});
-    return std::optional(scores);
-  };
+  const auto score = [](const RarePoint& point, std::uint32_t) { return point[0] + 1.1503; };
   const RareCoverage coverage = CoverageOf(std::vector<RareFactor>(2), {.num_per_stage = 200},
-                                           experiment, NormalTail(1.1503));
+                                           OneLevel(score), NormalTail(1.1503));
   EXPECT_EQ(coverage.num_known, kNumEstimates);
   EXPECT_GE(coverage.num_covering, 0.93 * coverage.num_known);
   EXPECT_LE(coverage.trials, 1.05 * coverage.plain_trials);
@@ -157,14 +200,10 @@ TEST(RareEvent, CostsNoMoreThanPlainTrialsWhereFailuresAreFrequent) {
 
 TEST(RareEvent, CostsLittleMoreThanPlainTrialsWhereNoFactorDecides) {
   // What fails has nothing to do with the factors.
-  const RareExperiment experiment = [](const std::vector<RareTrial>& trials) {
-    std::vector<RareScores> scores;
-    for (const RareTrial& trial : trials) {
-      const double unit = UnitFloat(RandomWords(7, RandomUse::kNoise, 0, trial.index)[0]);
-      scores.push_back({unit - 0.02});
-    }
-    return std::optional(scores);
-  };
+  const RareExperiment experiment = OneLevel([](const RarePoint&, std::uint32_t index) {
+    const double unit = UnitFloat(RandomWords(7, RandomUse::kNoise, 0, index)[0]);
+    return unit - 0.02;
+  });
   for (std::uint64_t seed = 1; seed < 6; ++seed) {
     const auto run = RunRareEvent(std::vector<RareFactor>(2),
                                   {.seed = seed * 1'000'003, .num_per_stage = 100}, experiment);
@@ -209,7 +248,8 @@ TEST(RareEvent, BoundsWhatNeverFailed) {
 /// Trials of which those before `num_failed` fail on the cheap level.
 WeightedTrials Trials(std::size_t num, std::size_t num_failed, double weight) {
   WeightedTrials trials{.weights = std::vector<double>(num, weight),
-                        .scores = std::vector<RareScores>(num, RareScores{1.0})};
+                        .scores = std::vector<RareScores>(num, RareScores{1.0}),
+                        .own_weights = std::vector<double>(num, weight)};
   for (std::size_t i = 0; i < num_failed; ++i) trials.scores[i].cheap = -1.0;
   return trials;
 }
@@ -220,6 +260,16 @@ TEST(RareEvent, KnowsNoProbabilityAboveOne) {
   ASSERT_TRUE(figure.is_known()) << figure.refusal;
   EXPECT_LE(figure.probability.high, 1.0);
   EXPECT_GE(PlainTrialsFor(figure.probability), 0.0);
+}
+
+TEST(RareEvent, KnowsWhereAllTrialsAreEqual) {
+  const WeightedTrials trials = Trials(100, 100, 0.5);
+  const RareFigure figure = EstimateRareFigure({.cheap = {trials, trials}});
+  ASSERT_TRUE(figure.is_known()) << figure.refusal;
+  EXPECT_NEAR(figure.probability.low, 0.5, 1e-4);
+  EXPECT_NEAR(figure.probability.value, 0.5, 1e-12);
+  // One more of 200, with its own error.
+  EXPECT_NEAR(figure.probability.high, 0.5025 + 1.96 * 0.0025, 1e-4);
 }
 
 TEST(RareEvent, RefusesWhatIsNotKnownOnTheDearLevel) {
