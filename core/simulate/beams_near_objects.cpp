@@ -76,10 +76,12 @@ double BesideBeam_rad(const DetectorSpec& detector) {
 std::vector<bool> BeamsNearObjects(const World& world,
                                    std::span<const std::size_t> objects,
                                    const ScanPattern& pattern,
-                                   const BeamReach& reach) {
+                                   const BeamReach& reach,
+                                   std::optional<std::span<const std::uint32_t>> among) {
   std::vector<bool> is_near(pattern.num_firings());
   if (is_near.empty()) return is_near;
   const std::uint32_t duration_ns = *std::ranges::max_element(pattern.time_ns);
+  const std::size_t num = among ? among->size() : is_near.size();
   for (const std::size_t object : objects) {
     if (world.objects()[object].is_ego) continue;
     const MovingSphere sphere = SphereOf(world, object, reach, duration_ns);
@@ -87,7 +89,8 @@ std::vector<bool> BeamsNearObjects(const World& world,
       return center_m.norm() > reach.range_max_m + sphere.radius_m + 1.0;
     });
     if (is_far) continue;
-    for (std::size_t i = 0; i < is_near.size(); ++i) {
+    for (std::size_t k = 0; k < num; ++k) {
+      const std::size_t i = among ? (*among)[k] : k;
       if (is_near[i]) continue;
       const Vector3 direction(static_cast<double>(pattern.direction_x[i]),
                               static_cast<double>(pattern.direction_y[i]),

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,9 +27,13 @@ struct BeamReach {
 /// For each firing of a pattern, whether its beam may meet one of some objects: all that do are
 /// among them, and some that do not. Those of the vehicle itself are left out.
 /// @param objects Indices into world.objects().
-[[nodiscard]] std::vector<bool> BeamsNearObjects(const World& world,
-                                                 std::span<const std::size_t> objects,
-                                                 const ScanPattern& pattern,
-                                                 const BeamReach& reach);
+/// @param among The firings of those of a wider reach, beside which there are none; absent if they
+///   are not known.
+[[nodiscard]] std::vector<bool> BeamsNearObjects(
+    const World& world,
+    std::span<const std::size_t> objects,
+    const ScanPattern& pattern,
+    const BeamReach& reach,
+    std::optional<std::span<const std::uint32_t>> among = {});
 
 }  // namespace railcast

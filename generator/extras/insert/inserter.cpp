@@ -380,9 +380,9 @@ InsertedFrame Inserter::Insert(const RecordedFirings& firings, std::uint32_t fra
                                  .returns = returns.screens};
   ScreenedScan::Certify certify;
   if (parts.certifier) {
-    certify = [&](const ScreenedFrame& made, const std::vector<bool>& is_near,
+    certify = [&](const ScreenedFrame& made, std::span<const std::uint32_t> near,
                   const ScreenedScan::MakeAnew& make) {
-      inserted.certificate = parts.certifier->Certify(recorded, made, is_near, make);
+      inserted.certificate = parts.certifier->Certify(recorded, made, near, make);
     };
   }
   ScreenedFrame screened = parts.scan.Scan(recorded, firings.recorded.frame.returns, certify);

@@ -76,6 +76,7 @@ Screens MakeScreens(const DetectorSpec& detector,
   surfaces.first = static_cast<std::uint32_t>(surfaces.all.size());
   for (std::size_t firing = 0; firing + 1 < first.size(); ++firing) {
     const std::span<Screen> of(returns.data() + first[firing], first[firing + 1] - first[firing]);
+    if (of.empty()) continue;
     for (Screen& screen : of) {
       screen.range_m = std::clamp(screen.range_m, nearest_m, farthest_m);
       // Noise may have helped it.

@@ -131,23 +131,23 @@ void ScreenedCertifier::FillGrid(const RecordedScan& recorded, const ScreenedFra
 
 FrameCertificate ScreenedCertifier::Certify(const RecordedScan& recorded,
                                             const ScreenedFrame& made,
-                                            const std::vector<bool>& is_near,
+                                            std::span<const std::uint32_t> near,
                                             const ScreenedScan::MakeAnew& make) {
-  const auto num_near = static_cast<double>(std::ranges::count(is_near, true));
-  if (num_near == 0.0) return {};
+  if (near.empty()) return {};
   FillGrid(recorded, made);
   const ScanPattern& pattern = recorded.pattern;
   CertifiedRegion region{.cells = std::vector<bool>(grid_.num_slots())};
   std::vector<std::uint32_t> firing_of(grid_.num_slots());
-  for (std::uint32_t i = 0; i < is_near.size(); ++i) {
+  for (const std::uint32_t i : near) {
     const std::size_t cell = CellOf(pattern, i);
-    region.cells[cell] = is_near[i];
+    region.cells[cell] = true;
     firing_of[cell] = i;
   }
-  region.num_wanted = certifier_.num_expected() *
-                      (num_near + cost_of_others_ * static_cast<double>(is_near.size()));
+  region.num_wanted =
+      certifier_.num_expected() * (static_cast<double>(near.size()) +
+                                   cost_of_others_ * static_cast<double>(pattern.num_firings()));
   const auto scan = [&](std::span<const std::uint32_t> cells, std::span<Frame> frames) {
-    std::vector<bool> is_wanted(is_near.size());
+    std::vector<bool> is_wanted(pattern.num_firings());
     std::vector<std::uint32_t> firings;
     for (const std::uint32_t cell : cells) {
       firings.push_back(firing_of[cell]);

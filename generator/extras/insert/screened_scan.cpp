@@ -155,8 +155,10 @@ struct ScreenedScan::Parts {
     for (Way& way : variants) use(way);
   }
 
-  [[nodiscard]] std::vector<bool> NearObjects(const RecordedScan& recorded,
-                                              double beside_rad) const {
+  [[nodiscard]] std::vector<bool> NearObjects(
+      const RecordedScan& recorded,
+      double beside_rad,
+      std::optional<std::span<const std::uint32_t>> among = {}) const {
     std::vector<std::size_t> objects(scenes.world().objects().size());
     std::iota(objects.begin(), objects.end(), std::size_t{0});
     return BeamsNearObjects(
@@ -164,7 +166,8 @@ struct ScreenedScan::Parts {
         {.stamp_ns = recorded.stamp_ns,
          .vehicle_from_sensor = own.spec.vehicle_from_sensor * own.spec.nominal_from_true,
          .beside_rad = beside_rad,
-         .range_max_m = own.spec.detector.range_max_m});
+         .range_max_m = own.spec.detector.range_max_m},
+        among);
   }
 
   [[nodiscard]] CastFrame CastOf(const Way& way,
@@ -349,17 +352,27 @@ struct ScreenedScan::Parts {
     BegunFrame begun = scenes.Begin(recorded.index, recorded.stamp_ns);
     const FrameScene& scene = scenes.SceneOf(begun);
     const double beside_rad = BesideBeam_rad(own.spec.detector);
-    const std::vector<bool> is_near = NearObjects(recorded, beside_rad);
-    const Wanted all{recorded, scene, duration_ns, returns, TracingOrder(pattern), is_near};
-    ScreenedFrame frame = MakeFirings(own, all, true);
-    if (!certify) return frame;
     double widest_rad = beside_rad;
-    for (const Way& way : variants) {
-      widest_rad = std::max(widest_rad, BesideBeam_rad(way.spec.detector));
+    if (certify) {
+      for (const Way& way : variants) {
+        widest_rad = std::max(widest_rad, BesideBeam_rad(way.spec.detector));
+      }
+    }
+    std::vector<bool> is_near = NearObjects(recorded, widest_rad);
+    std::vector<std::uint32_t> are_certified;
+    if (certify) {
+      for (std::uint32_t i = 0; i < is_near.size(); ++i) {
+        if (is_near[i]) are_certified.push_back(i);
+      }
     }
     // The frame itself traces no others with them, which would move its rays by parts of 1e-7.
-    certify(frame, widest_rad > beside_rad ? NearObjects(recorded, widest_rad) : is_near,
-            [&](const std::vector<bool>& is_wanted) { return MakeAnew(all, is_wanted); });
+    if (widest_rad > beside_rad) is_near = NearObjects(recorded, beside_rad, are_certified);
+    const Wanted all{recorded, scene, duration_ns, returns, TracingOrder(pattern), is_near};
+    ScreenedFrame frame = MakeFirings(own, all, true);
+    if (certify) {
+      certify(frame, are_certified,
+              [&](const std::vector<bool>& is_wanted) { return MakeAnew(all, is_wanted); });
+    }
     return frame;
   }
 };

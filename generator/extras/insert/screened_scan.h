@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/certify/certifier.h"
@@ -60,9 +61,9 @@ class ScreenedScan {
   using MakeAnew =
       std::function<std::vector<std::vector<ChangedFiring>>(const std::vector<bool>& is_wanted)>;
   /// Is called with a frame that is made.
-  /// @param is_near By firing, whether its beam may meet an object, in any of the variants.
+  /// @param near The firings whose beams may meet an object, in any of the variants.
   using Certify = std::function<void(
-      const ScreenedFrame& made, const std::vector<bool>& is_near, const MakeAnew& make)>;
+      const ScreenedFrame& made, std::span<const std::uint32_t> near, const MakeAnew& make)>;
 
   /// One caller at a time.
   /// @param returns Slots for each firing.
@@ -93,7 +94,7 @@ class ScreenedCertifier {
   /// For ScreenedScan::Certify. Depends on the frame alone.
   [[nodiscard]] FrameCertificate Certify(const RecordedScan& recorded,
                                          const ScreenedFrame& made,
-                                         const std::vector<bool>& is_near,
+                                         std::span<const std::uint32_t> near,
                                          const ScreenedScan::MakeAnew& make);
 
  private:

@@ -4,7 +4,9 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -46,6 +48,26 @@ TEST(BeamsNearObjects, AreAllThatMeetAMovingObjectAndFewMore) {
   ASSERT_GT(num_hits, 30U);
   // The sphere around the box around a sphere has the square root of 3 times its radius.
   EXPECT_LT(static_cast<std::size_t>(std::ranges::count(is_near, true)), 5 * num_hits);
+}
+
+TEST(BeamsNearObjects, AreTheSameAmongThoseOfAWiderReach) {
+  const auto world = WorldWithSphere({25.0, -3.0, 0.0}, {0.0, 30.0, 0.0});
+  const ScanPattern pattern = MakeRaster(60.0, 30.0, 0.5);
+  const auto near = [&](double beside_rad, std::optional<std::span<const std::uint32_t>> among) {
+    return BeamsNearObjects(*world, std::array<std::size_t, 1>{}, pattern,
+                            {.vehicle_from_sensor = Transform::Identity(),
+                             .beside_rad = beside_rad,
+                             .range_max_m = 300.0},
+                            among);
+  };
+  const std::vector<bool> wide = near(0.03, {});
+  const std::vector<bool> narrow = near(0.001, {});
+  EXPECT_LT(std::ranges::count(narrow, true), std::ranges::count(wide, true));
+  std::vector<std::uint32_t> firings;
+  for (std::uint32_t i = 0; i < wide.size(); ++i) {
+    if (wide[i]) firings.push_back(i);
+  }
+  EXPECT_EQ(near(0.001, firings), narrow);
 }
 
 TEST(BeamsNearObjects, AreNoneBehindTheSensorOrBeyondItsRange) {
