@@ -280,8 +280,27 @@ def table(name, lines):
     return {"keys": 1, "columns": [HEADS.get(column, column) for column in columns], "rows": rows}
 
 
+def exponent(points):
+    return fit_line([(math.log(x), math.log(y)) for x, y in points])[1]
+
+
+def growth(rows):
+    """How the times of a chart's table grow: the exponent of the power that fits them best, and the greatest one between
+    two rows of which the second has at least three times as much."""
+    number = [[float(cell.replace(",", "")) for cell in row[:3]] for row in rows]
+    lines = []
+    for time_of, column in (("raw trace", 1), ("frame", 2)):
+        points = [(row[0], row[column]) for row in number if row[0] > 0]
+        steps = [exponent([low, high]) for low, high in zip(points, points[1:]) if high[0] >= 2.9 * low[0]]
+        lines.append([time_of, f"{exponent(points):.2f}", f"{max(steps):.2f}"])
+    return {"keys": 1, "columns": ["time", "exponent", "steepest"], "rows": lines}
+
+
+GROWING = ("beams", "triangles", "moving", "standing", "line")
+
+
 def measured(name, build):
-    """Measures and draws a chart, and returns its table."""
+    """Measures and draws a chart, and returns its tables."""
     if name in OF_THE_DEMO:
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder) / "demo.json"
@@ -293,4 +312,7 @@ def measured(name, build):
         draw_disk(lines)
     elif name != "stages":
         draw(name, charts().get(name) or Chart(name, "threads", "threads", []), lines)
-    return {name: table(name, lines)}
+    tables = {name: table(name, lines)}
+    if name in GROWING:
+        tables["growth"] = growth(tables[name]["rows"])
+    return tables
