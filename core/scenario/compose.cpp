@@ -14,6 +14,7 @@
 #include "core/rail/world/world_draft.h"
 #include "core/scenario/build_faults.h"
 #include "core/scenario/sensors.h"
+#include "core/scenario/shared_scenery.h"
 #include "core/simulate/output_axes.h"
 #include "railcast/effects.h"
 #include "railcast/lidar.h"
@@ -152,7 +153,9 @@ void AddBuildFaults(const ScenarioSpec& spec, const UnknownPlaces& unknown, Erro
   if (unknown.IsKnown("/labels")) static_cast<void>(TryNames(spec, errors));
 }
 
-std::shared_ptr<const RailWorld> MakeWorld(const ScenarioSpec& spec) {
+namespace {
+
+std::shared_ptr<const RailWorld> MakeWorld(const ScenarioSpec& spec, SharedLines* shared) {
   ErrorList errors;
   const auto doing = [&] {
     return "building the world (" + std::to_string(spec.world.objects.size()) + " objects)";
@@ -160,7 +163,8 @@ std::shared_ptr<const RailWorld> MakeWorld(const ScenarioSpec& spec) {
   const auto make = [&] {
     return WithinMemory(doing, [&] {
       return std::make_shared<const RailWorld>(spec.world, spec.vehicle, LabelTable(spec.labels),
-                                               MaterialLibrary(spec.materials), spec.world.seed);
+                                               MaterialLibrary(spec.materials), spec.world.seed,
+                                               shared);
     });
   };
   const auto world = Located(spec, "", errors, make);
@@ -170,20 +174,23 @@ std::shared_ptr<const RailWorld> MakeWorld(const ScenarioSpec& spec) {
 
 std::vector<std::unique_ptr<Simulator>> MakeSimulators(const ScenarioSpec& spec,
                                                        int num_threads,
-                                                       const std::string& isa) {
+                                                       const std::string& isa,
+                                                       SharedScenery* shared) {
   ErrorList errors;
   const std::vector<SensorPlace> sensors = SensorsOf(spec);
   std::vector<std::optional<ScanPattern>> patterns;
   for (const auto& [lidar, pointer] : sensors) {
     patterns.push_back(TryPattern(spec, pointer, lidar.scan, errors));
   }
-  const auto world = Attempt("", errors, [&] { return MakeWorld(spec); });
+  const auto world = Attempt(
+      "", errors, [&] { return MakeWorld(spec, shared == nullptr ? nullptr : &shared->lines); });
   const auto effects = Located(spec, "", errors, [&] { return EffectsOf(spec); });
   const auto names = effects ? TryNames(spec, errors) : std::nullopt;
   errors.ThrowIfAny();
 
   const MaterialLibrary materials(spec.materials);
-  const auto store = MakeSceneStore(*world, materials, isa);
+  const auto stock = shared == nullptr ? std::make_shared<TraceStock>(isa) : shared->stock;
+  const auto store = std::make_shared<SceneStore>(*world, materials, stock);
   std::vector<std::unique_ptr<Simulator>> simulators;
   const auto make = [&] {
     for (std::size_t i = 0; i < sensors.size(); ++i) {
@@ -212,6 +219,25 @@ std::vector<std::unique_ptr<Simulator>> MakeSimulators(const ScenarioSpec& spec,
   tbb::task_arena arena(num_threads > 0 ? num_threads : tbb::task_arena::automatic);
   arena.execute([&] { tbb::parallel_invoke([&] { (*world)->PreparePlants(); }, make); });
   return simulators;
+}
+
+}  // namespace
+
+std::shared_ptr<const RailWorld> MakeWorld(const ScenarioSpec& spec) {
+  return MakeWorld(spec, nullptr);
+}
+
+std::vector<std::unique_ptr<Simulator>> MakeSimulators(const ScenarioSpec& spec,
+                                                       int num_threads,
+                                                       const std::string& isa) {
+  return MakeSimulators(spec, num_threads, isa, nullptr);
+}
+
+std::vector<std::unique_ptr<Simulator>> MakeSimulators(const ScenarioSpec& spec,
+                                                       int num_threads,
+                                                       const std::string& isa,
+                                                       SharedScenery& shared) {
+  return MakeSimulators(spec, num_threads, isa, &shared);
 }
 
 std::unique_ptr<Simulator> MakeSimulator(const ScenarioSpec& spec,

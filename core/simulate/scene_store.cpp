@@ -1,10 +1,12 @@
 #include "core/simulate/scene_store.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "core/base/error.h"
 #include "core/scene/object_pieces.h"
 #include "core/simulate/swaying.h"
+#include "railcast/rail_world.h"
 #include "railcast/simulator.h"
 
 namespace railcast {
@@ -30,13 +32,58 @@ double RadiusAboutOrigin(const Model& model) {
 
 }  // namespace
 
+std::shared_ptr<const TraceStock::BareChunk> TraceStock::GetChunk(const RailWorld& world,
+                                                                  const ChunkForm& form) {
+  return chunks_.Get(
+      std::pair(world.bare_line(), form),
+      [&] { return Prepare(world.BuildBareChunk(form.chunk, form.level), form); },
+      [](const BareChunk& chunk) { return chunk.num_triangles; });
+}
+
+std::shared_ptr<const TraceStock::BareChunk> TraceStock::Prepare(Chunk made,
+                                                                 const ChunkForm& form) const {
+  if (!form.has_tubes) {
+    for (Part& part : made.ground.parts) {
+      if (part.is_wire) part.mesh = {};
+    }
+  }
+  auto built = std::make_shared<BareChunk>();
+  built->ground = std::make_shared<TraceModel>(device_, made.ground);
+  built->ground_surfaces = WithoutTriangles(made.ground);
+  built->placements = std::move(made.placements);
+  built->wires = std::move(made.wires);
+  built->num_triangles = made.ground.num_triangles();
+  return built;
+}
+
+std::shared_ptr<const TraceModel> TraceStock::GetModel(const std::shared_ptr<const Model>& model,
+                                                       bool is_object) {
+  const auto key = std::pair(model.get(), is_object);
+  {
+    const std::lock_guard lock(models_mutex_);
+    const auto found = models_.find(key);
+    if (found != models_.end()) return found->second.second;
+  }
+  // Built without holding the lock, so that other models are not delayed. Two threads that need the
+  // same model at the same time may both build it.
+  auto built = std::make_shared<const TraceModel>(device_, *model, is_object);
+  const std::lock_guard lock(models_mutex_);
+  return models_.try_emplace(key, model, std::move(built)).first->second.second;
+}
+
+void TraceStock::ForgetUnusedModels() {
+  const std::lock_guard lock(models_mutex_);
+  std::erase_if(models_, [](const auto& entry) { return entry.second.first.use_count() == 1; });
+}
+
 SceneStore::SceneStore(std::shared_ptr<const World> world,
                        const MaterialLibrary& materials,
-                       const std::string& isa)
+                       std::shared_ptr<TraceStock> stock)
     : world_(std::move(world)),
+      rail_world_(std::dynamic_pointer_cast<const RailWorld>(world_)),
       materials_(materials.materials()),
       unit_tube_(std::make_shared<const Model>(UnitTube())),
-      device_(isa) {}
+      stock_(std::move(stock)) {}
 
 std::shared_ptr<const SceneStore::BuiltChunk> SceneStore::GetChunk(const ChunkForm& form) {
   std::packaged_task<std::shared_ptr<const BuiltChunk>()> build;
@@ -63,39 +110,18 @@ std::shared_ptr<const SceneStore::BuiltChunk> SceneStore::GetChunk(const ChunkFo
 }
 
 std::shared_ptr<const SceneStore::BuiltChunk> SceneStore::BuildChunk(const ChunkForm& form) const {
-  Chunk made = form.level > 0 ? world_->BuildCoarserChunk(form.chunk, form.level)
-                              : world_->BuildChunk(form.chunk);
-  if (!form.has_tubes) {
-    for (Part& part : made.ground.parts) {
-      if (part.is_wire) part.mesh = {};
-    }
-  }
   auto built = std::make_shared<BuiltChunk>();
-  built->ground = std::make_shared<TraceModel>(device_, made.ground);
-  built->ground_surfaces = WithoutTriangles(made.ground);
-  built->placements = std::move(made.placements);
-  built->wires = std::move(made.wires);
-  return built;
-}
-
-std::shared_ptr<const TraceModel> SceneStore::GetModel(const std::shared_ptr<const Model>& model,
-                                                       bool is_object) {
-  const auto key = std::pair(model.get(), is_object);
-  {
-    const std::lock_guard lock(models_mutex_);
-    const auto found = models_.find(key);
-    if (found != models_.end()) return found->second.second;
+  if (rail_world_ == nullptr) {
+    Chunk made = form.level > 0 ? world_->BuildCoarserChunk(form.chunk, form.level)
+                                : world_->BuildChunk(form.chunk);
+    built->bare = stock_->Prepare(std::move(made), form);
+    built->placements = built->bare->placements;
+    return built;
   }
-  // Built without holding the lock, so that other models are not delayed. Two threads that need the
-  // same model at the same time may both build it.
-  auto built = std::make_shared<const TraceModel>(device_, *model, is_object);
-  const std::lock_guard lock(models_mutex_);
-  return models_.try_emplace(key, model, std::move(built)).first->second.second;
-}
-
-void SceneStore::ForgetUnusedModels() {
-  const std::lock_guard lock(models_mutex_);
-  std::erase_if(models_, [](const auto& entry) { return entry.second.first.use_count() == 1; });
+  built->bare = stock_->GetChunk(*rail_world_, form);
+  built->placements = built->bare->placements;
+  std::ranges::move(rail_world_->PlantsOf(form.chunk), std::back_inserter(built->placements));
+  return built;
 }
 
 void SceneStore::UseBeams(const std::vector<std::uint32_t>& labels) {
@@ -139,7 +165,8 @@ bool SceneStore::HasTexture(const std::vector<Surface>& surfaces) const {
 std::shared_ptr<SceneStore> MakeSceneStore(std::shared_ptr<const World> world,
                                            const MaterialLibrary& materials,
                                            const std::string& isa) {
-  return std::make_shared<SceneStore>(std::move(world), materials, isa);
+  return std::make_shared<SceneStore>(std::move(world), materials,
+                                      std::make_shared<TraceStock>(isa));
 }
 
 }  // namespace railcast

@@ -59,7 +59,7 @@ Simulator::Simulator(std::shared_ptr<const World> world,
                      const MaterialLibrary& materials,
                      const SimulatorSpec& spec,
                      int num_threads)
-    : Simulator(std::make_shared<SceneStore>(std::move(world), materials, spec.isa),
+    : Simulator(MakeSceneStore(std::move(world), materials, spec.isa),
                 std::move(pattern),
                 materials,
                 spec,

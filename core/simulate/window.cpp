@@ -39,10 +39,11 @@ void AddWires(const SceneStore::BuiltChunk& chunk,
               const Transform& window_from_chunk,
               std::uint32_t ground_surface,
               WireSet& set) {
-  for (const Wire& wire : chunk.wires) {
+  for (const Wire& wire : chunk.bare->wires) {
     std::vector<Vector3> points_m = wire.points_m;
     for (Vector3& point : points_m) point = window_from_chunk * point;
-    set.Add(points_m, wire.radius_m, ground_surface + PartOfWire(wire, chunk.ground_surfaces));
+    set.Add(points_m, wire.radius_m,
+            ground_surface + PartOfWire(wire, chunk.bare->ground_surfaces));
   }
 }
 
@@ -50,9 +51,9 @@ void AddSwayingWires(const SceneStore::BuiltChunk& chunk,
                      const Transform& world_from_chunk,
                      std::uint32_t ground_surface,
                      Window& window) {
-  for (const Wire& wire : chunk.wires) {
+  for (const Wire& wire : chunk.bare->wires) {
     window.swaying.AddWire(wire, world_from_chunk, window.window_from_world,
-                           ground_surface + PartOfWire(wire, chunk.ground_surfaces));
+                           ground_surface + PartOfWire(wire, chunk.bare->ground_surfaces));
   }
 }
 
@@ -216,8 +217,8 @@ void WindowSource::AddChunks(const Chunks& chunks,
   for (const auto& [index, chunk] : chunks) {
     const Transform world_from_chunk = store_->world()->WorldFromChunk(index);
     const Transform window_from_chunk = window.window_from_world * world_from_chunk;
-    const std::uint32_t ground_surface = surfaces_of(chunk->ground_surfaces, 0);
-    placements.push_back({chunk->ground, {ToAffine(window_from_chunk)}, ground_surface});
+    const std::uint32_t ground_surface = surfaces_of(chunk->bare->ground_surfaces, 0);
+    placements.push_back({chunk->bare->ground, {ToAffine(window_from_chunk)}, ground_surface});
     if (wind_blows) {
       AddSwayingWires(*chunk, world_from_chunk, ground_surface, window);
     } else {

@@ -46,9 +46,12 @@ struct CommandEffect {
 }  // namespace
 
 FrameMaker::FrameMaker(ScenarioSpec scenario, int num_threads, const std::string& isa)
+    : FrameMaker(scenario, MakeSimulators(scenario, num_threads, isa)) {}
+
+FrameMaker::FrameMaker(ScenarioSpec scenario, std::vector<std::unique_ptr<Simulator>> simulators)
     : scenario_(std::move(scenario)),
       labels_(scenario_.labels),
-      simulators_(MakeSimulators(scenario_, num_threads, isa)),
+      simulators_(std::move(simulators)),
       surveys_(simulators_.size()) {
   // Every simulator of a scenario has the world that MakeWorld returns and shares its ownership.
   auto world = std::dynamic_pointer_cast<const RailWorld>(simulators_.front()->shared_world());

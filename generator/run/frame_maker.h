@@ -48,6 +48,8 @@ class FrameMaker {
   /// @param num_threads,isa As MakeSimulators() takes them.
   /// @throws InputError as MakeSimulators() does.
   FrameMaker(ScenarioSpec scenario, int num_threads, const std::string& isa = {});
+  /// @param simulators Of the scenario, as MakeSimulators() makes them.
+  FrameMaker(ScenarioSpec scenario, std::vector<std::unique_ptr<Simulator>> simulators);
 
   /// Applies a command. Step changes nothing; Reset is the same as Reset().
   /// @pre time_ns >= 0, and not less than that of the command before it unless that is Reset.

@@ -17,8 +17,10 @@
 namespace railcast {
 
 class TrackCourse;
+struct LineKey;
 struct Network;
 struct Route;
+struct WorldDraft;
 
 /// How the sensor's vehicle runs along its route at an instant, and how it got there.
 struct VehicleTravel {
@@ -28,6 +30,20 @@ struct VehicleTravel {
   double speeding_up_m{};      ///< Change of chainage since time 0 while the speed rose; >= 0.
   double slowing_down_m{};     ///< Change of chainage since time 0 while the speed fell; >= 0.
   bool runs_back{};            ///< Whether the chainage falls.
+};
+
+/// What worlds that are made one after another have in common, made once: lines whose specs differ
+/// in objects, trains and plants alone, and the models of plants. Keeps those used last.
+/// Thread-safe.
+class SharedLines {
+ public:
+  SharedLines();
+  ~SharedLines();
+
+ private:
+  friend class RailWorld;
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
 };
 
 /// The railway world of a scenario. The line is divided into chunks of kChunkLength_m each, from
@@ -43,18 +59,21 @@ struct VehicleTravel {
 /// the ends of the line.
 ///
 /// Immutable. WithVehicleSpeed(), WithObject() and WithoutObject() return a modified world that
-/// shares everything else, including its chunks, with this one.
+/// shares everything else, including its chunks, with this one. Worlds made with the same
+/// SharedLines share what they have in common.
 class RailWorld final : public World {
  public:
   static constexpr double kChunkLength_m = 50.0;
 
   /// @throws InputError if the specs contradict each other or a mesh cannot be read. Each line
   ///   reads "/world/objects/3/track: rule (got value)", with pointers into the scenario.
+  /// @param shared Files of the same name are taken to be the same. Null: the world is alone.
   RailWorld(const WorldSpec& world,
             const VehicleSpec& vehicle,
             const LabelTable& labels,
             const MaterialLibrary& materials,
-            std::uint64_t seed);
+            std::uint64_t seed,
+            SharedLines* shared = nullptr);
   ~RailWorld() override;
 
   /// Makes the plants of which all chunks are planted, as the first BuildChunk() would otherwise.
@@ -116,17 +135,31 @@ class RailWorld final : public World {
   [[nodiscard]] Chunk BuildChunk(int chunk) const override;
   [[nodiscard]] std::vector<CoarserSurfaces> CoarserSurfacesOf(int chunk) const override;
   [[nodiscard]] Chunk BuildCoarserChunk(int chunk, std::size_t level) const override;
+  /// What chunks are made of but for their plants: worlds with the same object have the same
+  /// BuildBareChunk().
+  [[nodiscard]] std::shared_ptr<const void> bare_line() const;
+  /// A chunk with all of its placements but PlantsOf(), which come last. @param level 0 = finest.
+  [[nodiscard]] Chunk BuildBareChunk(int chunk, std::size_t level) const;
+  [[nodiscard]] std::vector<Placement> PlantsOf(int chunk) const;
   [[nodiscard]] const std::vector<SceneObject>& objects() const override;
   [[nodiscard]] Transform WorldFromObject(std::size_t object, std::int64_t time_ns) const override;
   [[nodiscard]] std::vector<Transform> WorldFromPieces(std::size_t object,
                                                        std::int64_t time_ns) const override;
 
  private:
+  friend struct SharedLines::Parts;
   struct Line;
+  struct Setting;
   struct Things;
-  RailWorld(std::shared_ptr<const Line> line, std::shared_ptr<const Things> things);
+  /// @param draft Complete. What is needed is moved out of it.
+  static std::shared_ptr<const Line> LayLine(WorldDraft& draft, const LineKey& key);
+  /// The same world with other things.
+  RailWorld(const RailWorld& like, std::shared_ptr<const Things> things);
+  /// The vehicle moves on its springs, if it has any; its bogies do not.
+  [[nodiscard]] Transform WorldFromVehicleAt(double s_m, double speed_mps) const;
 
   std::shared_ptr<const Line> line_;
+  std::shared_ptr<const Setting> setting_;
   std::shared_ptr<const Things> things_;
 };
 

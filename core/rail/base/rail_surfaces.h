@@ -14,6 +14,8 @@ namespace railcast {
 struct SurfaceClass {
   std::uint16_t material{};
   std::uint32_t label{};
+
+  bool operator==(const SurfaceClass&) const = default;
 };
 
 /// The surfaces of single things beside and in the track (railcast/lineside.h).
@@ -27,6 +29,8 @@ struct LinesideSurfaces {
   SurfaceClass barrier_white, barrier_red, crossing_steel, crossing_screen, crossing_lamp;
   SurfaceClass wall, flat_roof, tiled_roof, window;
   SurfaceClass furniture_steel, furniture_wood, furniture_glass;
+
+  bool operator==(const LinesideSurfaces&) const = default;
 };
 
 /// The surfaces of structures (railcast/structures.h). Tables need their names only if the world
@@ -37,12 +41,16 @@ struct StructureSurfaces {
   SurfaceClass tunnel, tunnel_handrail, bridge, bridge_railing;
   SurfaceClass third_rail, third_rail_shield, slab_track, road;
   LinesideSurfaces lineside;
+
+  bool operator==(const StructureSurfaces&) const = default;
 };
 
 /// The surfaces of turnouts (track/track_structure.h). Tables need their names only if the
 /// world has turnouts.
 struct TurnoutSurfaces {
   SurfaceClass running_band, rail, point_machine;
+
+  bool operator==(const TurnoutSurfaces&) const = default;
 };
 
 /// The surfaces of the railway world, looked up by name once.
@@ -71,6 +79,8 @@ struct RailSurfaces {
   /// Looks up the surfaces of turnouts.
   /// @throws InputError with a line for every name that the tables lack.
   void AddTurnoutSurfaces(const LabelTable& labels, const MaterialLibrary& materials);
+
+  bool operator==(const RailSurfaces&) const = default;
 };
 
 /// Returns the model's part with that surface; adds the part if there is none yet. The reference is

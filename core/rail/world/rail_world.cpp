@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,27 +11,19 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/base/out_of_memory.h"
 #include "core/base/text.h"
 #include "core/rail/catenary/catenary.h"
-#include "core/rail/catenary/catenary_plan.h"
 #include "core/rail/chunk/chunk_context.h"
-#include "core/rail/chunk/chunk_grid.h"
-#include "core/rail/clearance/cleared.h"
-#include "core/rail/ground/plant_models.h"
-#include "core/rail/ground/terrain.h"
 #include "core/rail/landform/landform.h"
 #include "core/rail/motion/ride.h"
 #include "core/rail/motion/track_path.h"
-#include "core/rail/network/network_draft.h"
 #include "core/rail/objects/mesh_object.h"
 #include "core/rail/structures/standing_height.h"
 #include "core/rail/structures/structures.h"
-#include "core/rail/survey/surveyed_scene.h"
-#include "core/rail/track/track_structure.h"
 #include "core/rail/traffic/object_draft.h"
 #include "core/rail/traffic/object_way.h"
 #include "core/rail/traffic/trains.h"
+#include "core/rail/world/rail_world_parts.h"
 #include "core/rail/world/world_draft.h"
 #include "core/scene/rotation_between.h"
 
@@ -42,123 +35,19 @@ constexpr double kOverhang_m = 8.0;
 
 }  // namespace
 
-/// The part of the world that commands cannot change.
-struct RailWorld::Line {
-  WorldSpec world;
-  VehicleSpec vehicle;
-  LabelTable labels;
-  MaterialLibrary materials;
-  std::uint64_t seed{};
-  std::optional<RailSurfaces> surfaces;
-  Alignment alignment;
-  Network network;
-  std::vector<LaidTurnout> turnouts;
-  std::vector<LaidDiamond> diamonds;
-  ChunkGrid grid;
-  CatenaryPlan catenary_plan;
-  TrackModels track_models;
-  std::shared_ptr<const Model> mast_model;
-  std::unique_ptr<const PlantsOnDemand> plants;
-  Landform land;
-  std::optional<Ride> ride;                     ///< Of the sensor's vehicle.
-  std::shared_ptr<const SurveyedScene> survey;  ///< Null: the line is built from the spec.
-  TilesOfChunks surveyed;
+SharedLines::SharedLines() : parts_(std::make_unique<Parts>()) {}
 
-  /// If `chunk_from_world` is the identity, builders work in world coordinates.
-  [[nodiscard]] ChunkContext ContextOf(int chunk, const Transform& chunk_from_world) const {
-    return {.spec = world,
-            .alignment = alignment,
-            .tracks = network.courses,
-            .turnouts = turnouts,
-            .surfaces = *surfaces,
-            .seed = seed,
-            .chunk = chunk,
-            .begin_s_m = grid.BeginOf(chunk),
-            .end_s_m = grid.EndOf(chunk),
-            .chunk_from_world = chunk_from_world,
-            .land = &land,
-            .diamonds = diamonds,
-            .survey = survey.get()};
-  }
-  [[nodiscard]] bool has_plants() const {
-    const VegetationSpec& spec = world.vegetation;
-    return !survey && (spec.grass || spec.trees_per_hectare > 0.0 || spec.bushes_per_hectare > 0.0);
-  }
-  [[nodiscard]] static ClearedAreas UnballastedAbout(const ChunkContext& context) {
-    // Cross-sections beyond are few.
-    constexpr double kBeyond_m = 10.0;
-    return {TracksOf(context), Clearing::kBallast, context.begin_s_m - kBeyond_m,
-            context.end_s_m + kBeyond_m};
-  }
-  [[nodiscard]] Chunk Build(ChunkContext context) const {
-    Chunk built;
-    const ClearedAreas unballasted = UnballastedAbout(context);
-    context.unballasted = &unballasted;
-    built.ground.name = "chunk " + std::to_string(context.chunk);
-    WithinMemory([&] { return "building " + built.ground.name + " of the line"; },
-                 [&] {
-                   if (survey) {
-                     survey->Add(surveyed.tiles.at(static_cast<std::size_t>(context.chunk)),
-                                 context.chunk_from_world, built);
-                     AddStructures(context, built);
-                     return;
-                   }
-                   AddTerrain(context, built);
-                   AddTracks(context, track_models, built);
-                   AddCatenary(context, catenary_plan, mast_model, built);
-                   AddStructures(context, built);
-                   if (has_plants()) AddVegetation(context, plants->Get(), built);
-                 });
-    return built;
-  }
-  /// The booms of all level crossings whose barriers move.
-  [[nodiscard]] std::vector<MovingBoom> Booms() const {
-    std::vector<MovingBoom> booms;
-    for (const StructureSpec& structure : world.structures) {
-      const auto* crossing = std::get_if<LevelCrossingSpec>(&structure);
-      if (crossing == nullptr || crossing->barrier_angles_deg.empty()) continue;
-      const int chunk = grid.ChunkAt(crossing->s_m);
-      ChunkContext context = ContextOf(chunk, grid.WorldFromChunk(chunk).inverse());
-      const ClearedAreas unballasted = UnballastedAbout(context);
-      context.unballasted = &unballasted;
-      for (MovingBoom& boom : MovingBoomsOf(context, *crossing)) booms.push_back(std::move(boom));
-    }
-    return booms;
-  }
-  /// The sensor's vehicle, of which everything but its bogies moves on their springs.
-  [[nodiscard]] Transform WorldFromVehicle(const TrackPath& path, double s_m, double v_mps) const {
-    const Transform world_from_perfect = path.WorldFromObjectAt(alignment, s_m);
-    if (!ride) return world_from_perfect;
-    return world_from_perfect * ride->PerfectFromVehicle(ride->At(s_m, v_mps, path.reverse()));
-  }
-  [[nodiscard]] LineMeasures Measures() const {
-    return {alignment.length_m(), alignment.tightest_radius_m()};
-  }
-};
+SharedLines::~SharedLines() = default;
 
-/// The objects, and the motion of everything that moves.
-struct RailWorld::Things {
-  TrackPath vehicle;
-  bool has_changed_vehicle_speed = false;
-  // Shared between worlds, because most commands change only the vehicle's motion.
-  std::shared_ptr<const std::vector<SceneObject>> objects;
-  std::shared_ptr<const std::vector<ObjectWay>> ways;  ///< In the order of `objects`.
-  std::uint32_t next_instance = 1;
-
-  [[nodiscard]] const TrackPath& PathOf(std::size_t object) const {
-    const std::optional<TrackPath>& path = ways->at(object).path;
-    return path ? *path : vehicle;
-  }
-};
-
-RailWorld::RailWorld(std::shared_ptr<const Line> line, std::shared_ptr<const Things> things)
-    : line_(std::move(line)), things_(std::move(things)) {}
+RailWorld::RailWorld(const RailWorld& like, std::shared_ptr<const Things> things)
+    : line_(like.line_), setting_(like.setting_), things_(std::move(things)) {}
 
 RailWorld::RailWorld(const WorldSpec& world,
                      const VehicleSpec& vehicle,
                      const LabelTable& labels,
                      const MaterialLibrary& materials,
-                     std::uint64_t seed) {
+                     std::uint64_t seed,
+                     SharedLines* shared) {
   WorldFaults faults;
   WorldDraft draft = DraftWorld({world, vehicle, labels, materials}, faults);
   faults.errors.ThrowIfAny();
@@ -166,20 +55,16 @@ RailWorld::RailWorld(const WorldSpec& world,
   const RailSurfaces& surfaces = *draft.surfaces;
   const Alignment& alignment = *draft.alignment;
   std::vector<TrackPath> boom_paths = BoomPaths(draft);
-  Network network = Completed(std::move(draft.network));
-  std::vector<LaidTurnout> turnouts = LayTurnouts(network);
-  std::vector<LaidDiamond> diamonds = LayDiamonds(network);
-  const ChunkGrid grid(alignment, kChunkLength_m, world.terrain.half_width_m);
-  TilesOfChunks surveyed;
-  if (draft.survey) surveyed = draft.survey->AssignTiles(alignment, grid);
-  line_ = std::make_shared<const Line>(
-      Line{std::move(draft.world), vehicle, labels, materials, seed, surfaces, alignment,
-           std::move(network), std::move(turnouts), std::move(diamonds), grid,
-           std::move(*draft.catenary_plan), MakeTrackModels(world.alignment, surfaces),
-           std::make_shared<const Model>(MakeMast(world.catenary, surfaces)),
-           std::make_unique<const PlantsOnDemand>(surfaces, seed),
-           Landform(world.terrain, std::move(*draft.strip_width), std::move(draft.elevation), seed),
-           RideOf(vehicle, world.seed), std::move(draft.survey), std::move(surveyed)});
+  const auto grow = [&] { return std::make_shared<const PlantsOnDemand>(surfaces, seed); };
+  setting_ = std::make_shared<const Setting>(Setting{
+      draft.world, labels, materials,
+      shared == nullptr ? grow() : shared->parts_->plants.Get(PlantsKey{surfaces, seed}, grow),
+      RideOf(vehicle, world.seed)});
+  const LineKey key = KeyOf(draft, seed);
+  const auto lay = [&] { return LayLine(draft, key); };
+  // What a survey has depends on more than the key.
+  const bool is_shared = shared != nullptr && draft.survey == nullptr;
+  line_ = is_shared ? shared->parts_->lines.Get(key, lay) : lay();
 
   std::vector<SceneObject> objects = std::move(draft.objects);
   std::vector<ObjectWay> ways;
@@ -222,7 +107,7 @@ RailWorld::RailWorld(const WorldSpec& world,
 RailWorld::~RailWorld() = default;
 
 void RailWorld::PreparePlants() const {
-  if (line_->has_plants()) static_cast<void>(line_->plants->Get());
+  if (setting_->has_plants()) static_cast<void>(setting_->plants->Get());
 }
 
 std::shared_ptr<const RailWorld> RailWorld::WithVehicleSpeed(std::int64_t from_ns,
@@ -251,7 +136,7 @@ std::shared_ptr<const RailWorld> RailWorld::WithVehicleSpeed(std::int64_t from_n
     changed.objects = std::move(objects);
   }
   return std::shared_ptr<const RailWorld>(
-      new RailWorld(line_, std::make_shared<const Things>(std::move(changed))));
+      new RailWorld(*this, std::make_shared<const Things>(std::move(changed))));
 }
 
 std::shared_ptr<const RailWorld> RailWorld::WithObject(const ObjectSpec& given,
@@ -262,8 +147,8 @@ std::shared_ptr<const RailWorld> RailWorld::WithObject(const ObjectSpec& given,
                                                         line_->network.courses.end());
   const NetworkDraft network{courses, line_->network.turnouts};
   ObjectSpec object = given;
-  PlaceFromMap({line_->world, network, &line_->alignment}, pointer, object, faults);
-  CheckObject(line_->world, object, pointer, {line_->Measures(), courses}, faults);
+  PlaceFromMap({setting_->world, network, &line_->alignment}, pointer, object, faults);
+  CheckObject(setting_->world, object, pointer, {line_->Measures(), courses}, faults);
   const auto has_its_name = [&](const SceneObject& other) { return other.name == object.name; };
   if (object.name == "ego" || std::any_of(objects().begin(), objects().end(), has_its_name)) {
     faults.Add(pointer + "/name",
@@ -275,14 +160,14 @@ std::shared_ptr<const RailWorld> RailWorld::WithObject(const ObjectSpec& given,
     faults.Add(pointer, "must be one of at most " + std::to_string(kFirstMastInstance - 1) +
                             " objects of a run, those that were removed included");
   }
-  auto path = DraftPath({line_->world, network}, object, pointer, from_ns, faults);
-  const RailSurfaces& surfaces = *line_->surfaces;
-  ObjectModels models(surfaces, line_->labels, line_->materials);
-  auto made = DraftObject(object, pointer, {surfaces, line_->labels, models}, faults);
+  auto path = DraftPath({setting_->world, network}, object, pointer, from_ns, faults);
+  const RailSurfaces& surfaces = line_->surfaces;
+  ObjectModels models(surfaces, setting_->labels, setting_->materials);
+  auto made = DraftObject(object, pointer, {surfaces, setting_->labels, models}, faults);
   ObjectPath object_path;
   if (path && made) {
     object_path = DraftObjectPath(
-        {line_->alignment, line_->world.terrain.half_width_m, things_->vehicle, from_ns},
+        {line_->alignment, setting_->world.terrain.half_width_m, things_->vehicle, from_ns},
         {object, *made, pointer}, std::move(*path), faults);
   }
   faults.errors.ThrowIfAny();
@@ -299,7 +184,7 @@ std::shared_ptr<const RailWorld> RailWorld::WithObject(const ObjectSpec& given,
   changed.ways = std::move(ways);
   changed.objects = std::move(objects);
   return std::shared_ptr<const RailWorld>(
-      new RailWorld(line_, std::make_shared<const Things>(std::move(changed))));
+      new RailWorld(*this, std::make_shared<const Things>(std::move(changed))));
 }
 
 std::shared_ptr<const RailWorld> RailWorld::WithoutObject(const std::string& name) const {
@@ -325,7 +210,7 @@ std::shared_ptr<const RailWorld> RailWorld::WithoutObject(const std::string& nam
   changed.ways = std::move(ways);
   changed.objects = std::move(objects);
   return std::shared_ptr<const RailWorld>(
-      new RailWorld(line_, std::make_shared<const Things>(std::move(changed))));
+      new RailWorld(*this, std::make_shared<const Things>(std::move(changed))));
 }
 
 const Alignment& RailWorld::alignment() const {
@@ -333,7 +218,7 @@ const Alignment& RailWorld::alignment() const {
 }
 
 const TrackSpec& RailWorld::vehicle_track() const {
-  return *FindTrack(line_->world, vehicle_route().names.front());
+  return *FindTrack(setting_->world, vehicle_route().names.front());
 }
 
 const Network& RailWorld::network() const {
@@ -341,7 +226,7 @@ const Network& RailWorld::network() const {
 }
 
 const std::vector<TrackSpec>& RailWorld::tracks() const {
-  return line_->world.tracks;
+  return setting_->world.tracks;
 }
 
 const Route& RailWorld::vehicle_route() const {
@@ -365,7 +250,7 @@ double RailWorld::VehicleChainage_m(std::int64_t time_ns) const {
 }
 
 const TrackSpec& RailWorld::object_track(std::size_t object) const {
-  return *FindTrack(line_->world, object_route(object).names.front());
+  return *FindTrack(setting_->world, object_route(object).names.front());
 }
 
 const Route& RailWorld::object_route(std::size_t object) const {
@@ -388,14 +273,21 @@ VehicleTravel RailWorld::VehicleTravelAt(std::int64_t time_ns) const {
 }
 
 RigidMotion RailWorld::VehicleMotion(std::int64_t time_ns) const {
-  return MotionOnTrack(things_->vehicle, time_ns, [&](double s_m, double v_mps) {
-    return line_->WorldFromVehicle(things_->vehicle, s_m, v_mps);
-  });
+  return MotionOnTrack(things_->vehicle, time_ns,
+                       [&](double s_m, double v_mps) { return WorldFromVehicleAt(s_m, v_mps); });
+}
+
+Transform RailWorld::WorldFromVehicleAt(double s_m, double speed_mps) const {
+  const TrackPath& path = things_->vehicle;
+  const Transform world_from_perfect = path.WorldFromObjectAt(line_->alignment, s_m);
+  const std::optional<Ride>& ride = setting_->ride;
+  if (!ride) return world_from_perfect;
+  return world_from_perfect * ride->PerfectFromVehicle(ride->At(s_m, speed_mps, path.reverse()));
 }
 
 Transform RailWorld::WorldFromVehicle(std::int64_t time_ns) const {
   const SpeedProfile::State now = things_->vehicle.StateAt(time_ns);
-  return line_->WorldFromVehicle(things_->vehicle, now.s_m, now.speed_mps);
+  return WorldFromVehicleAt(now.s_m, now.speed_mps);
 }
 
 int RailWorld::HomeChunk(std::int64_t time_ns) const {
@@ -423,8 +315,8 @@ std::vector<int> RailWorld::ChunksInReach(int home_chunk, double range_m) const 
     aside_m = std::max(aside_m, std::abs(things_->vehicle.course().OffsetAt(s_m).d_m));
   }
   double overhang_m =
-      std::max(kOverhang_m, line_->surveyed.half_width_m - line_->world.terrain.half_width_m);
-  for (const StructureSpec& structure : line_->world.structures) {
+      std::max(kOverhang_m, line_->surveyed.half_width_m - setting_->world.terrain.half_width_m);
+  for (const StructureSpec& structure : setting_->world.structures) {
     overhang_m = std::max(overhang_m, OverhangOf_m(structure));
   }
   return line_->grid.WithinReach(home_chunk, range_m + aside_m + overhang_m);
@@ -435,13 +327,26 @@ Transform RailWorld::WorldFromChunk(int chunk) const {
 }
 
 Chunk RailWorld::BuildChunk(int chunk) const {
-  return line_->Build(line_->ContextOf(chunk, line_->grid.WorldFromChunk(chunk).inverse()));
+  return BuildCoarserChunk(chunk, 0);
 }
 
 Chunk RailWorld::BuildCoarserChunk(int chunk, std::size_t level) const {
-  ChunkContext context = line_->ContextOf(chunk, line_->grid.WorldFromChunk(chunk).inverse());
-  context.level = level;
-  return line_->Build(context);
+  Chunk built = BuildBareChunk(chunk, level);
+  std::ranges::move(PlantsOf(chunk), std::back_inserter(built.placements));
+  return built;
+}
+
+std::shared_ptr<const void> RailWorld::bare_line() const {
+  return line_;
+}
+
+Chunk RailWorld::BuildBareChunk(int chunk, std::size_t level) const {
+  return line_->Build(chunk, level);
+}
+
+std::vector<Placement> RailWorld::PlantsOf(int chunk) const {
+  if (!setting_->has_plants()) return {};
+  return line_->PlantsOf(chunk, setting_->world, setting_->plants->Get());
 }
 
 std::vector<CoarserSurfaces> RailWorld::CoarserSurfacesOf(int chunk) const {

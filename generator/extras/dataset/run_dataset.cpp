@@ -25,6 +25,7 @@
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
 #include "core/program/version.h"
+#include "core/scenario/shared_scenery.h"
 #include "core/trace/trace_program.h"
 #include "generator/extras/dataset/dataset_directory.h"
 #include "generator/extras/dataset/inserted_scenarios.h"
@@ -132,7 +133,8 @@ class DatasetRun {
         choices_(choices),
         hooks_(hooks),
         drawer_(recipe),
-        directory_(SpecOfDataset(recipe, choices, drawer_.bases())) {}
+        directory_(SpecOfDataset(recipe, choices, drawer_.bases())),
+        scenery_(directory_.spec().record.isa) {}
 
   DatasetResult Run() {
     const auto begin = std::chrono::steady_clock::now();
@@ -192,7 +194,8 @@ class DatasetRun {
     AtPlace(ShownPath(recipe_.file) + ": /", [&] { CheckNamesOfFolders(drawn.scenario); });
     RunPlan plan = PlanRun(std::move(drawn.scenario), ChoicesOfScenario(recipe_, choices_, number),
                            ShownPath(recipe_.file) + ": scenario " + std::to_string(number));
-    FrameMaker maker(plan.scenario, turn.num_threads, plan.sensors.front().spec.isa);
+    FrameMaker maker(plan.scenario, MakeSimulators(plan.scenario, turn.num_threads,
+                                                   plan.sensors.front().spec.isa, scenery_));
     SetFrames(maker, plan);
     // A recipe may draw the reference itself for some of its scenarios, which needs no certificate.
     for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
@@ -287,6 +290,7 @@ class DatasetRun {
   const DatasetHooks& hooks_;
   ScenarioDrawer drawer_;
   DatasetDirectory directory_;
+  SharedScenery scenery_;
   std::atomic<std::uint64_t> num_frames_ = 0;
   DatasetResult result_;
 };

@@ -392,7 +392,7 @@ ScreenedScan::ScreenedScan(std::shared_ptr<const World> world,
       .first_material =
           static_cast<std::uint16_t>(library.materials().size() - kNumScreenMaterials),
       .materials = library.materials(),
-      .scenes{std::make_shared<SceneStore>(std::move(world), library, spec.isa), scene_spec},
+      .scenes{MakeSceneStore(std::move(world), library, spec.isa), scene_spec},
       // Without this, TBB starts no more threads than there are cores.
       .parallelism = std::make_unique<tbb::global_control>(
           tbb::global_control::max_allowed_parallelism,

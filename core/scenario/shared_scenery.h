@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/simulate/scene_store.h"
+#include "railcast/rail_world.h"
+#include "railcast/scenario.h"
+#include "railcast/simulator.h"
+
+namespace railcast {
+
+/// What scenarios of one process have in common, built once: lines, plants, chunks and Embree's
+/// trees. The bytes of frames do not depend on it. Thread-safe.
+struct SharedScenery {
+  /// Of the chunks that are kept: with trees and tables about 100 MB
+  /// (docs/results/dataset_costs.md).
+  static constexpr std::size_t kMostTriangles = 500'000;
+
+  explicit SharedScenery(const std::string& isa = {})
+      : stock(std::make_shared<TraceStock>(isa, kMostTriangles)) {}
+
+  SharedLines lines;
+  std::shared_ptr<TraceStock> stock;
+};
+
+/// MakeSimulators() of railcast/scenario.h with what earlier scenarios have built, on the
+/// instruction set of `shared`.
+[[nodiscard]] std::vector<std::unique_ptr<Simulator>> MakeSimulators(const ScenarioSpec& spec,
+                                                                     int num_threads,
+                                                                     const std::string& isa,
+                                                                     SharedScenery& shared);
+
+}  // namespace railcast

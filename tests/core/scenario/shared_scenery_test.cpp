@@ -1,0 +1,79 @@
+#include "core/scenario/shared_scenery.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "railcast/rail_world.h"
+#include "railcast/scenario.h"
+#include "railcast/simulator.h"
+#include "tests/core/scenario/scenario_files.h"
+#include "tests/support/frame_bytes.h"
+
+namespace railcast {
+namespace {
+
+ScenarioSpec Base() {
+  ScenarioSpec spec = ReadScenario(ScenariosDir() / "station.json");
+  spec.lidar.scan.pattern = RasterSpec{120.0, 30.0, 2.0};
+  spec.lidar.range_max_m = 60.0;
+  return spec;
+}
+
+// Scenarios that differ in one thing each.
+std::vector<ScenarioSpec> Scenarios() {
+  std::vector<ScenarioSpec> all(10, Base());
+  all[1].vehicle.start_s_m += 20.0;
+  all[2].world.vegetation.trees_per_hectare = 90.0;
+  all[3].world.objects.clear();
+  all[4].world.seed += 1;
+  all[5].world.terrain.roughness_sigma_m = 0.1;
+  all[6].materials.insert(all[6].materials.begin(), {.name = "first", .reflectivity = 0.5});
+  all[7].weather.rain_rate_mmph = 20.0;
+  all[7].vehicle.motion = {};
+  // The last two are the first once more.
+  return all;
+}
+
+const RailWorld& WorldOf(const Simulator& simulator) {
+  return dynamic_cast<const RailWorld&>(simulator.world());
+}
+
+TEST(SharedScenery, LeavesEveryByteOfFramesAsItIs) {
+  SharedScenery shared;
+  int number = 0;
+  for (ScenarioSpec& spec : Scenarios()) {
+    SCOPED_TRACE(number);
+    spec.fidelity = number++ % 2 == 0 ? Fidelity::kSurface : Fidelity::kFootprint;
+    Frame alone;
+    Frame among_others;
+    MakeSimulators(spec, 1).front()->Scan(2, alone);
+    MakeSimulators(spec, 2, "", shared).front()->Scan(2, among_others);
+    EXPECT_TRUE(FrameBytes(alone) == FrameBytes(among_others));
+  }
+}
+
+TEST(SharedScenery, BuildsTheLineOfScenariosOnceThatDifferInOtherThings) {
+  SharedScenery shared;
+  std::vector<std::shared_ptr<const void>> lines;
+  for (const ScenarioSpec& spec : Scenarios()) {
+    lines.push_back(WorldOf(*MakeSimulators(spec, 1, "", shared).front()).bare_line());
+  }
+  for (const std::size_t same : {1U, 2U, 3U, 7U, 8U, 9U}) EXPECT_EQ(lines[same], lines[0]) << same;
+  for (const std::size_t other : {4U, 5U, 6U}) EXPECT_NE(lines[other], lines[0]) << other;
+}
+
+TEST(SharedScenery, KeepsNoChunksBeyondItsTriangles) {
+  const auto world = MakeWorld(Base());
+  const TraceStock::ChunkForm form{.chunk = 2};
+  TraceStock all("", SharedScenery::kMostTriangles);
+  const auto kept = all.GetChunk(*world, form);
+  EXPECT_EQ(all.GetChunk(*world, form), kept);
+  TraceStock none("", kept->num_triangles - 1);
+  EXPECT_NE(none.GetChunk(*world, form), none.GetChunk(*world, form));
+}
+
+}  // namespace
+}  // namespace railcast
