@@ -34,10 +34,11 @@ double RadiusAboutOrigin(const Model& model) {
 
 std::shared_ptr<const TraceStock::BareChunk> TraceStock::GetChunk(const RailWorld& world,
                                                                   const ChunkForm& form) {
-  return chunks_.Get(
-      std::pair(world.bare_line(), form),
-      [&] { return Prepare(world.BuildBareChunk(form.chunk, form.level), form); },
-      [](const BareChunk& chunk) { return chunk.num_triangles; });
+  const auto build = [&] { return Prepare(world.BuildBareChunk(form.chunk, form.level), form); };
+  const std::shared_ptr<const void> line = world.bare_line();
+  if (line == nullptr) return build();
+  return chunks_.Get(std::pair(line, form), build,
+                     [](const BareChunk& chunk) { return chunk.num_triangles; });
 }
 
 std::shared_ptr<const TraceStock::BareChunk> TraceStock::Prepare(Chunk made,

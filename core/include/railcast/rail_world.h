@@ -136,7 +136,7 @@ class RailWorld final : public World {
   [[nodiscard]] std::vector<CoarserSurfaces> CoarserSurfacesOf(int chunk) const override;
   [[nodiscard]] Chunk BuildCoarserChunk(int chunk, std::size_t level) const override;
   /// What chunks are made of but for their plants: worlds with the same object have the same
-  /// BuildBareChunk().
+  /// BuildBareChunk(). Null if no world before has the same: most such lines come only once.
   [[nodiscard]] std::shared_ptr<const void> bare_line() const;
   /// A chunk with all of its placements but PlantsOf(), which come last. @param level 0 = finest.
   [[nodiscard]] Chunk BuildBareChunk(int chunk, std::size_t level) const;

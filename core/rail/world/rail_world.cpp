@@ -55,16 +55,19 @@ RailWorld::RailWorld(const WorldSpec& world,
   const RailSurfaces& surfaces = *draft.surfaces;
   const Alignment& alignment = *draft.alignment;
   std::vector<TrackPath> boom_paths = BoomPaths(draft);
+  const LineKey key = KeyOf(draft, seed);
+  // What a survey has depends on more than the key.
+  bool is_known = shared != nullptr && draft.survey == nullptr;
+  const auto lay = [&] {
+    is_known = false;
+    return LayLine(draft, key);
+  };
+  line_ = is_known ? shared->parts_->lines.Get(key, lay) : lay();
   const auto grow = [&] { return std::make_shared<const PlantsOnDemand>(surfaces, seed); };
   setting_ = std::make_shared<const Setting>(Setting{
       draft.world, labels, materials,
       shared == nullptr ? grow() : shared->parts_->plants.Get(PlantsKey{surfaces, seed}, grow),
-      RideOf(vehicle, world.seed)});
-  const LineKey key = KeyOf(draft, seed);
-  const auto lay = [&] { return LayLine(draft, key); };
-  // What a survey has depends on more than the key.
-  const bool is_shared = shared != nullptr && draft.survey == nullptr;
-  line_ = is_shared ? shared->parts_->lines.Get(key, lay) : lay();
+      RideOf(vehicle, world.seed), is_known});
 
   std::vector<SceneObject> objects = std::move(draft.objects);
   std::vector<ObjectWay> ways;
@@ -337,7 +340,7 @@ Chunk RailWorld::BuildCoarserChunk(int chunk, std::size_t level) const {
 }
 
 std::shared_ptr<const void> RailWorld::bare_line() const {
-  return line_;
+  return setting_->is_known_line ? line_ : nullptr;
 }
 
 Chunk RailWorld::BuildBareChunk(int chunk, std::size_t level) const {

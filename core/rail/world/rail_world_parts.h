@@ -72,6 +72,7 @@ struct RailWorld::Setting {
   MaterialLibrary materials;
   std::shared_ptr<const PlantsOnDemand> plants;
   std::optional<Ride> ride;  ///< Of the sensor's vehicle.
+  bool is_known_line{};      ///< Whether a world before has the line.
 
   [[nodiscard]] bool has_plants() const {
     const VegetationSpec& spec = world.vegetation;
