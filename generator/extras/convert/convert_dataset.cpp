@@ -46,8 +46,10 @@ DatasetSpec SpecOfConvertedSet(const ConvertChoices& choices) {
   if (spec.record.is_merged) fail("a data set without merged clouds (got --merged)");
   spec.record.format = choices.format;
   if (ParseFrameFormat(choices.format).files.empty()) {
-    throw InputError("--format: must have files for each frame for a data set (got " +
-                     choices.format + ")");
+    throw InputError(
+        "--format: must have files for each frame, which the index of a data set "
+        "names; its sequences become bags one by one (got " +
+        choices.format + ")");
   }
   if (ParseFrameFormat(choices.format).dataset || choices.fields != "all") {
     spec.record.fields = choices.fields;
@@ -62,7 +64,9 @@ void TakeConverted(const fs::path& sequence, SequenceRecord& record) {
   record.points = manifest.counts.points;
   record.data_hash = manifest.data_hash;
   record.manifest_hash = HashFile(file).hash;
+  record.scenario_hash = HashOf(kScenarioFile, manifest.files, file);
   record.bag.reset();
+  record.files.clear();
 }
 
 class DatasetConversion {
@@ -108,10 +112,21 @@ class DatasetConversion {
     for (SequenceRecord& sequence : record.sequences) {
       ConvertChoices choices = choices_;
       choices.recording /= sequence.folder;
+      // Of an insertion, the recording into which things were put stands in a folder of its own.
+      const bool is_insertion = !sequence.files.empty();
+      if (is_insertion) {
+        CheckFiles(record.scenario, sequence);
+        sequence.folder = SequenceFolderOf(record.scenario);
+        choices.recording = choices_.recording / sequence.folder;
+      }
       choices.directory /= sequence.folder;
-      if (!sequence.files.empty() || !BecomesSequence(choices)) {
+      if (!BecomesSequence(choices)) {
         throw InputError(ShownPath(choices.recording) +
-                         ": must be a sequence in another format than kitti, and no insertion");
+                         (is_insertion
+                              ? ": must be an insertion into a sequence in another format than "
+                                "kitti: other recordings do not hold what a data set lists of "
+                                "frames"
+                              : ": must be a sequence in another format than kitti"));
       }
       MakeFolders(choices.directory);
       const ConvertResult made = ConvertSequence(choices, {[](auto, auto) {}, hooks_.is_stopped});
@@ -121,6 +136,14 @@ class DatasetConversion {
     }
     if (!record.sensors_hash.empty()) CopySensors(record);
     return true;
+  }
+
+  /// Checks that the files of an insertion are as they were written.
+  void CheckFiles(std::uint32_t scenario, const SequenceRecord& sequence) const {
+    for (const auto& [name, hash] : sequence.files) {
+      const fs::path file = fs::path(SequenceFolderOf(scenario)) / name;
+      (void)ReadHashedFile(choices_.recording, {file.string(), hash, {}}, kScenariosFile);
+    }
   }
 
   /// Where the folders of several sensors are is the same.

@@ -236,7 +236,12 @@ ConvertResult ConvertSequence(const ConvertChoices& choices, const RunHooks& hoo
   result.num_done = directory.num_done();
   if (!directory.is_complete() && result.num_done == range.num) directory.Finish();
   result.is_complete = directory.is_complete();
-  if (result.is_complete) result.lost = LostOfSequence(summary, spec, directory.counts());
+  if (result.is_complete) {
+    result.lost = LostOfSequence(summary, spec, directory.counts());
+    const bool is_insertion =
+        source != choices.recording && fs::exists(choices.recording / kInsertFile);
+    AddLoss("lists of what was put into a frame", is_insertion ? range.num : 0, result.lost);
+  }
   return result;
 }
 

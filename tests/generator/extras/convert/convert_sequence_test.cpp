@@ -196,7 +196,8 @@ TEST(ConvertDataset, IsTheDataSetThatItsRecipeWouldHaveGiven) {
       MessageOf([&] {
         (void)ConvertAll({.recording = path("pcd"), .directory = path("bag"), .format = "mcap"});
       }),
-      "--format: must have files for each frame for a data set (got mcap)");
+      "--format: must have files for each frame, which the index of a data set names; its "
+      "sequences become bags one by one (got mcap)");
 }
 
 }  // namespace
