@@ -18,6 +18,11 @@ namespace {
 /// What a world asks for, and a little for the chainages between whole metres.
 constexpr double kLeastApart_m = kLeastTrackDistance_m + 0.02;
 
+/// The map has a crossing at most so far from the axes of its tracks.
+constexpr double kOnAxis_m = 1.5;
+/// Half the length of a crossing: the frogs of one at 1:9 are 13 m from its middle.
+constexpr double kHalfDiamond_m = 15.0;
+
 TrackDraft DraftOf(TrackSpec spec, TrackCourse course) {
   TrackDraft draft{std::move(spec), std::move(course), {}, {}, 0, {}};
   draft.first_m = static_cast<int>(std::ceil(draft.course.begin_s_m()));
@@ -88,6 +93,20 @@ bool TrackNetwork::IsFree(std::size_t track, double one_s_m, double other_s_m) c
   });
 }
 
+double TrackNetwork::InMappedCrossings_m(std::size_t track,
+                                         double one_s_m,
+                                         double other_s_m) const {
+  const auto [from_s_m, to_s_m] = std::minmax(one_s_m, other_s_m);
+  double sum_m = 0.0;
+  for (const Eigen::Vector2d& place_m : crossings_m_) {
+    if (TrackCrossingAt(place_m)) continue;
+    if (std::abs(tracks_[track].OffsetNear_m(place_m.x()) - place_m.y()) > kOnAxis_m) continue;
+    sum_m += std::max(0.0, std::min(to_s_m, place_m.x() + kHalfDiamond_m) -
+                               std::max(from_s_m, place_m.x() - kHalfDiamond_m));
+  }
+  return sum_m;
+}
+
 std::optional<TrackDraft> TrackNetwork::Make(const TrackSpec& spec) const {
   std::optional<TurnoutPlace> begin;
   std::optional<TurnoutPlace> end;
@@ -122,7 +141,6 @@ std::optional<TrackDraft> TrackNetwork::Make(const TrackSpec& spec) const {
 void TrackNetwork::AddCrossings(TrackDraft& draft) const {
   // Tracks that cross at 1:9 and are 0.8 m off do so 7 m farther on.
   constexpr double kAlong_m = 15.0;
-  constexpr double kAside_m = 1.5;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     const TrackDraft& track = tracks_[i];
     const int to_m = std::min(track.end_m(), draft.end_m());
@@ -133,7 +151,7 @@ void TrackNetwork::AddCrossings(TrackDraft& draft) const {
       if (apart_m * std::exchange(before_m, apart_m) >= 0.0) continue;
       const auto place_m = std::ranges::find_if(crossings_m_, [&](const Eigen::Vector2d& it) {
         return std::abs(it.x() - at_m) < kAlong_m &&
-               std::abs(it.y() - draft.OffsetNear_m(at_m)) < kAside_m;
+               std::abs(it.y() - draft.OffsetNear_m(at_m)) < kOnAxis_m;
       });
       if (place_m == crossings_m_.end()) continue;
       if (auto crossing = CrossingAt(*place_m, i, draft, at_m)) {
@@ -255,14 +273,12 @@ std::optional<std::string> TrackNetwork::TrackCrossingAt(const Eigen::Vector2d& 
 
 std::string TrackNetwork::ReasonAgainstCrossing(const Eigen::Vector2d& place_m) const {
   constexpr double kLevel_rad = 1e-3;
-  // The frogs of a crossing at 1:9 are 13 m from its middle.
-  constexpr double kHalf_m = 15.0;
   const double s_m = place_m.x();
   if (std::abs(alignment_.At(s_m).cant_rad) > kLevel_rad) {
     return "the line has cant there, and tracks cross where it has none";
   }
   const auto track = TrackNear(s_m, place_m.y());
-  if (track && !IsFree(*track, s_m - kHalf_m, s_m + kHalf_m)) {
+  if (track && !IsFree(*track, s_m - kHalfDiamond_m, s_m + kHalfDiamond_m)) {
     return "a turnout lies in the crossing there, and there are no slips";
   }
   return "one of the tracks that cross there is not made";

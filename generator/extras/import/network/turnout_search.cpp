@@ -1,5 +1,6 @@
 #include "generator/extras/import/network/turnout_search.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -80,6 +81,10 @@ std::optional<TurnoutChoice> ChoiceAt(const TrackNetwork& network,
   branch.AddTurnout(place.geometry, SignOf(*spec.side), *through);
   TurnoutChoice choice{
       .spec = spec, .behind = branch.EndTowardsRising(), .track_slope = course.OffsetAt(s_m).slope};
+  // Where there is another way, no turnout stands in the way of a crossing.
+  constexpr double kInCrossing_m = 1.0;
+  choice.off_cost =
+      Squared(network.InMappedCrossings_m(meeting.track, s_m, end_s_m) / kInCrossing_m);
   const double guess_m = choice.behind.x_m - fit.plan.start.x_m;
   const Foot foot =
       FootOn(fit.course, fit.plan.length_m(), {choice.behind.x_m, choice.behind.y_m}, guess_m);
@@ -89,7 +94,7 @@ std::optional<TurnoutChoice> ChoiceAt(const TrackNetwork& network,
   const bool is_beside = std::abs(foot.beyond_m) < 1.0;
   if (is_beside && std::abs(foot.offset_m) > kFarthest_m) return std::nullopt;
   if (is_beside) {
-    choice.off_cost =
+    choice.off_cost +=
         Squared(foot.offset_m / kOff_m) +
         Squared((fit.course.At(foot.s_m).heading_rad - choice.behind.heading_rad) / kTurn_rad);
     FindJoin(fit, foot.s_m, meeting.opens_ahead, choice);
@@ -124,6 +129,41 @@ std::vector<AlignmentElement> ElementsAlong(const RunFit& fit,
     elements.push_back(element);
   }
   return elements;
+}
+
+/// A track of one arc between the end of a branch and a place aside from the free end of a fit:
+/// where the map has a branch for so short a way that no two arcs lead to the fit and along it.
+std::optional<TrackSpec> ArcToFreeEnd(const TurnoutChoice& choice,
+                                      const PlanPoint& free_end,
+                                      double aside_m,
+                                      bool is_begin) {
+  constexpr double kLongest_m = 60.0;
+  constexpr double kShortest_m = 1.0;
+  const Eigen::Vector2d chord_m =
+      Eigen::Rotation2D<double>(-choice.behind.heading_rad) *
+      Eigen::Vector2d(free_end.x_m - choice.behind.x_m, free_end.y_m + aside_m - choice.behind.y_m);
+  const double ahead_m = is_begin ? chord_m.x() : -chord_m.x();
+  const double per_m = 2.0 * chord_m.y() / chord_m.squaredNorm();
+  if (ahead_m < kShortest_m || chord_m.norm() > kLongest_m ||
+      std::abs(per_m) > kSharpestArc_per_m) {
+    return std::nullopt;
+  }
+  const double half_turn_rad = std::atan2(chord_m.y(), ahead_m);
+  const double length_m = per_m == 0.0 ? ahead_m : std::abs(2.0 * half_turn_rad / per_m);
+  TrackSpec spec;
+  if (is_begin) {
+    AddArc(length_m, per_m, spec.elements);
+    spec.begin = choice.spec;
+    return spec;
+  }
+  // Two arcs lead on to the turnout at an end, here along the same circle.
+  AddArc(0.5 * length_m, per_m, spec.elements);
+  spec.end = choice.spec;
+  spec.offset_m = RoundedTo(free_end.y_m + aside_m, 1e4);
+  spec.start_s_m = RoundedTo(free_end.x_m, 1e4);
+  const double heading_rad = choice.behind.heading_rad - length_m * per_m;
+  spec.heading_deg = RoundedTo(heading_rad * 180.0 / std::numbers::pi, 1e7);
+  return spec;
 }
 
 struct Pairing {
@@ -345,6 +385,15 @@ std::vector<TrackSpec> TracksBetween(const RunFit& fit,
       TrackSpec spec = TrackOfPart(fit, free_end_m, choice.join_m);
       spec.end = choice.spec;
       specs.push_back(std::move(spec));
+    }
+  }
+  // Within what a track may be off its run.
+  constexpr std::array<double, 5> kAside_m = {0.0, 0.5, -0.5, 0.9, -0.9};
+  const PlanPoint free_end = fit.course.At(free_end_m);
+  for (const TurnoutChoice& choice : begin ? *begin : *end) {
+    for (const double aside_m : kAside_m) {
+      auto spec = ArcToFreeEnd(choice, free_end, aside_m, begin != nullptr);
+      if (spec) specs.push_back(std::move(*spec));
     }
   }
   return specs;

@@ -217,6 +217,32 @@ TEST_F(AcrossALine, ACrossoverWithoutANodeThereIsOnAnotherLevelAndCut) {
   EXPECT_EQ(MakeStand(line_.alignment, std::nullopt, world_), std::nullopt);
 }
 
+/// As on the yard in Karlsruhe: of a branch that turns with 80 m radius, the first 30 m run along
+/// the line. They are too short for two arcs, of at least 120 m, that end in its direction.
+TEST_F(BesideALine, AShortBranchLeavesItsTurnoutInOneArcAtEitherEnd) {
+  for (const double forwards : {1.0, -1.0}) {
+    Add({{1000.0 + forwards * 300.0, 0.0},
+         {1000.0 + forwards * 318.7, 1.56},
+         {1000.0 + forwards * 323.3, 2.68},
+         {1000.0 + forwards * 329.6, 4.65},
+         {1000.0 + forwards * 335.0, 7.73}},
+        {{"service", "yard"}, {"maxspeed", "10"}});
+  }
+  Make();
+  EXPECT_THAT(world_.switches, SizeIs(2));
+  EXPECT_EQ(MakeStand(line_.alignment, std::nullopt, world_), std::nullopt);
+  ASSERT_THAT(tracks_, SizeIs(3));
+  for (std::size_t i = 1; i < tracks_.size(); ++i) {
+    ASSERT_THAT(tracks_[i]["elements"], SizeIs(1));
+    EXPECT_GE(std::abs(tracks_[i]["elements"][0]["radius_m"].get<double>()), 120.0);
+    // It ends 0.9 m beside the branch at most.
+    const TrackCourse& course = world_.tracks[i].draft.course;
+    const double free_s_m = tracks_[i].contains("begin") ? course.end_s_m() : course.begin_s_m();
+    EXPECT_NEAR(std::abs(course.OffsetAt(free_s_m).d_m), 4.65, 0.9 + 0.3);
+    EXPECT_NEAR(std::abs(free_s_m - 1000.0), 329.6, 1.0);
+  }
+}
+
 TEST_F(BesideALine, ACrossoverMoreSlenderThanAnyTurnoutBeginsAndEndsWithinItself) {
   Add({{100.0, 4.7}, {500.0, 4.7}, {1000.0, 4.7}, {1500.0, 4.7}, {1900.0, 4.7}},
       {{"maxspeed", "100"}});
