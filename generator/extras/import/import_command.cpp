@@ -307,6 +307,7 @@ std::vector<std::optional<std::string>> FinishLines(const ImportCommandOptions& 
     }
     if (!reasons[i]) {
       SetCants(map, track, line);
+      if (!HasSurveyedCant(map, track)) LevelCant(world.level, line.alignment);
       ClearStructures(line.alignment, world);
       reasons[i] = MakeStand(line.alignment, elevation_file, world);
     }

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 #include <vector>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/rail/line/alignment_course.h"
 #include "generator/extras/import/fit/plan_model.h"
 #include "generator/extras/import/heights/profile_fit.h"
 #include "generator/extras/import/lines/line_places.h"
@@ -38,6 +40,21 @@ bool IsBetween(const ChainageValue& a, const ChainageValue& middle, const Chaina
   constexpr double kSame_mm = 0.05;
   const double share = (middle.s_m - a.s_m) / (b.s_m - a.s_m);
   return std::abs(a.value + share * (b.value - a.value) - middle.value) <= kSame_mm;
+}
+
+/// Entries of cants, and the last one and the end, are at least that far from each other.
+constexpr double kCantSteps_per_m = 10.0;
+
+/// Appends an entry, in the place of the last one if that is where the line through both of its
+/// neighbours is; none that is too near to the last one or to the end of the line.
+void AppendCant(double s_m, double cant_mm, double length_m, std::vector<ChainageValue>& cants_mm) {
+  // An alignment's first entry is at 0.
+  const ChainageValue entry{cants_mm.empty() ? 0.0 : RoundedTo(s_m, kCantSteps_per_m), cant_mm};
+  if (!cants_mm.empty() && !(entry.s_m > cants_mm.back().s_m)) return;
+  if (entry.s_m > length_m - 1.0 / kCantSteps_per_m) return;
+  const std::size_t num = cants_mm.size();
+  if (num >= 2 && IsBetween(cants_mm[num - 2], cants_mm[num - 1], entry)) cants_mm.pop_back();
+  cants_mm.push_back(entry);
 }
 
 constexpr double kNearestSamples_m = 20.0;
@@ -100,27 +117,58 @@ std::vector<double> ChainagesOnGround(const RailMap& map,
 
 }  // namespace
 
+bool HasSurveyedCant(const RailMap& map, const TrackLine& track) {
+  return std::ranges::any_of(track.nodes,
+                             [&](std::size_t node) { return map.nodes[node].cant_mm.has_value(); });
+}
+
 void SetCants(const RailMap& map, const TrackLine& track, ImportedLine& line) {
-  constexpr double kSteps_per_m = 10.0;
-  constexpr double kNearest_m = 1.0 / kSteps_per_m;  // Entries, and the last one and the end.
+  if (!HasSurveyedCant(map, track)) return;
   const Alignment alignment(line.alignment);
-  const double last_s_m = alignment.length_m() - kNearest_m;
   std::vector<ChainageValue> cants_mm;
-  const auto is_surveyed = [&](std::size_t node) { return map.nodes[node].cant_mm.has_value(); };
-  if (std::ranges::none_of(track.nodes, is_surveyed)) return;
   for (std::size_t i = 0; i < track.nodes.size(); ++i) {
     const double cant_mm = map.nodes[track.nodes[i]].cant_mm.value_or(0.0);
     const double s_m = line.chainages_m[i];
-    // An alignment's first entry is at 0.
-    const ChainageValue entry{cants_mm.empty() ? 0.0 : RoundedTo(s_m, kSteps_per_m),
-                              cant_mm == 0.0 ? 0.0 : TurnOf(alignment, s_m) * cant_mm};
-    if (!cants_mm.empty() && !(entry.s_m > cants_mm.back().s_m)) continue;
-    if (entry.s_m > last_s_m) continue;
-    const std::size_t num = cants_mm.size();
-    if (num >= 2 && IsBetween(cants_mm[num - 2], cants_mm[num - 1], entry)) cants_mm.pop_back();
-    cants_mm.push_back(entry);
+    AppendCant(s_m, cant_mm == 0.0 ? 0.0 : TurnOf(alignment, s_m) * cant_mm, alignment.length_m(),
+               cants_mm);
   }
   line.alignment.cants_mm = std::move(cants_mm);
+}
+
+void LevelCant(std::span<const ChainageRange> level, AlignmentSpec& line) {
+  constexpr double kStep_m = 10.0;
+  constexpr double kSteps_per_mm = 100.0;
+  constexpr double kLevel_rad = 1e-3;  // As CheckNetwork() asks for at crossings.
+  const Alignment alignment(line);
+  const double length_m = alignment.length_m();
+  const auto is_in_cant = [&](const ChainageRange& stretch) {
+    double s_m = std::max(0.0, stretch.begin_s_m);
+    const double end_s_m = std::min(length_m, stretch.end_s_m);
+    while (s_m < end_s_m && std::abs(alignment.At(s_m).cant_rad) <= kLevel_rad) ++s_m;
+    return s_m < end_s_m;
+  };
+  std::vector<ChainageRange> in_cant;
+  std::ranges::copy_if(level, std::back_inserter(in_cant), is_in_cant);
+  if (in_cant.empty()) return;
+  const auto cant_mm = [&](double s_m) {
+    double share = 1.0;
+    for (const ChainageRange& stretch : in_cant) {
+      const double away_m = std::max({0.0, stretch.begin_s_m - s_m, s_m - stretch.end_s_m});
+      share = std::min(share, away_m / line.cant_ramp_m);
+    }
+    const double by_rule_mm =
+        -(line.gauge_mm + kRailHeadWidth_mm) * std::sin(alignment.At(s_m).cant_rad);
+    return RoundedTo(share * by_rule_mm, kSteps_per_mm);
+  };
+  std::vector<double> chainages_m;
+  for (double s_m = 0.0; s_m < length_m; s_m += kStep_m) chainages_m.push_back(s_m);
+  for (const ChainageRange& stretch : in_cant) {
+    for (const double s_m : {stretch.begin_s_m, stretch.end_s_m}) {
+      if (s_m > 0.0 && s_m < length_m) chainages_m.push_back(s_m);
+    }
+  }
+  std::ranges::sort(chainages_m);
+  for (const double s_m : chainages_m) AppendCant(s_m, cant_mm(s_m), length_m, line.cants_mm);
 }
 
 void CheckCovers(const RailMap& map,

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
+#include "core/rail/line/track_course.h"
 #include "generator/extras/import/heights/elevation_map.h"
 #include "generator/extras/import/lines/imported_line.h"
 #include "generator/extras/import/lines/track_lines.h"
@@ -14,6 +16,14 @@ namespace railcast {
 /// outer rail of the fitted line is the higher one. Points without one have none, but if no point
 /// of the line has any, it is left to the rule.
 void SetCants(const RailMap& map, const TrackLine& track, ImportedLine& line);
+
+/// Whether any point of a line has a surveyed cant.
+[[nodiscard]] bool HasSurveyedCant(const RailMap& map, const TrackLine& track);
+
+/// Takes the cant by the rule from those of some stretches of a line that it gives any, with ramps
+/// to either side. If it gives none to any of them, the line stays as it is.
+/// @pre The line has no surveyed cant.
+void LevelCant(std::span<const ChainageRange> level, AlignmentSpec& line);
 
 /// @throws InputError if the model ends before one of the lines does.
 /// @param name Of the model, for messages.

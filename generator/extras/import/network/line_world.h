@@ -80,6 +80,7 @@ struct SideTrackQuality {
 struct LineWorld {
   std::vector<WorldTrack> tracks;  ///< The first is "main".
   std::vector<DiamondCrossingSpec> crossings;
+  std::vector<ChainageRange> level;  ///< Where these lie, without cant that was not surveyed.
   std::vector<StructureSpec> structures;
   RunsBeside beside;  ///< The tracks of the map beside the line, made or not.
   std::vector<MadeSwitch> switches;
@@ -110,10 +111,10 @@ inline constexpr double kFarOff_m = 0.5;
 /// - the same moved away from tracks to which the map has it too near (MovedApart);
 /// - two such tracks, one from each end, and ones without turnouts, as far as they are apart from
 ///   all others.
-/// Where two tracks cross at a node of the map they do so in a diamond, unless the line has cant
-/// there or a turnout lies in it. Tunnels of a run in which it crosses below the line are left out
-/// with their track. Whatever of a run is in no track, and each switch that is no turnout, is a
-/// LeftOut with its reason.
+/// Where two tracks cross at a node of the map they do so in a diamond, unless the line has
+/// surveyed cant there or a turnout lies in it. Tunnels of a run in which it crosses below the line
+/// are left out with their track. Whatever of a run is in no track, and each switch that is no
+/// turnout, is a LeftOut with its reason.
 void AddSideTracks(const RailMap& map,
                    const TrackLine& track,
                    const ImportedLine& line,

@@ -8,6 +8,7 @@
 
 #include "core/base/text.h"
 #include "core/rail/line/track_course.h"
+#include "generator/extras/import/lines/line_heights.h"
 #include "generator/extras/import/lines/line_places.h"
 #include "generator/extras/import/network/level_tracks.h"
 #include "generator/extras/import/network/line_world.h"
@@ -352,6 +353,7 @@ class SideTrackSearch {
       const std::size_t other = std::min(crossing.site.first, crossing.site.second);
       world_.crossings.push_back({.tracks = {network_.tracks()[other].spec.name, draft.spec.name},
                                   .s_m = RoundedTo(crossing.site.s_m, 1e3)});
+      world_.level.push_back({crossing.site.begin_s_m, crossing.site.end_s_m});
     }
     ++world_.quality.num_tracks;
     world_.quality.num_turnouts += draft.turnouts.size();
@@ -434,6 +436,23 @@ void SideTrackSearch::TakePart(const TrackRun& run) {
   if (!TakeAtOnce(open, moved_fit, level)) TakeParts(std::move(open), moved_fit, std::move(level));
 }
 
+/// The line without the cant by the rule wherever tracks may cross.
+AlignmentSpec AlignmentForCrossings(const RailMap& map,
+                                    const TrackLine& track,
+                                    const ImportedLine& line,
+                                    const std::vector<Eigen::Vector2d>& crossings_m) {
+  // A crossing's place is known to 15 m along the line, and its frogs are as far from that.
+  constexpr double kHalf_m = 30.0;
+  AlignmentSpec alignment = line.alignment;
+  if (HasSurveyedCant(map, track)) return alignment;
+  std::vector<ChainageRange> level;
+  for (const Eigen::Vector2d& place_m : crossings_m) {
+    level.push_back({place_m.x() - kHalf_m, place_m.x() + kHalf_m});
+  }
+  LevelCant(level, alignment);
+  return alignment;
+}
+
 }  // namespace
 
 void AddSideTracks(const RailMap& map,
@@ -447,8 +466,9 @@ void AddSideTracks(const RailMap& map,
   for (const SwitchNode& node : switches) {
     if (node.num_ways > 3) crossings_m.push_back(node.place_m);
   }
-  SideTrackSearch search(TrackNetwork(line.alignment, std::move(crossings_m)), line,
-                         options.sigma_m, world);
+  const AlignmentSpec alignment = AlignmentForCrossings(map, track, line, crossings_m);
+  SideTrackSearch search(TrackNetwork(alignment, std::move(crossings_m)), line, options.sigma_m,
+                         world);
   world.beside = FindRuns(map, track, places, options.otherwise_kmph);
   for (std::size_t i = 0; i < world.beside.runs.size(); ++i) {
     const TrackRun& run = world.beside.runs[i];
