@@ -363,7 +363,8 @@ RecordedRun ReadRecordedRun(const std::filesystem::path& plan_file,
   UseSensorOf(recording, run.plan, run.remarks);
   const RecordingWorldSpec& world = *run.plan.world.recording;
   run.way = ReadRecordedWay(recording, world, run.plan.lidar, run.remarks);
-  run.intensities = MeasureIntensities(plan_file, recording);
+  const auto measured = MeasureIntensities(plan_file, run.plan, recording, run.way.at_frames);
+  if (measured) run.intensities = UseIntensities(*measured, run.plan);
   const std::string source = ShownPath(recording);
   run.line =
       world.alignment ? GivenLine(*world.alignment, run.way, source) : LineOfWay(run.way, source);
@@ -377,9 +378,8 @@ ScenarioSpec OnRecordedLine(const RecordedRun& run, ScenarioSpec plan) {
   return plan;
 }
 
-InsertPlan MakeInsertPlan(const RecordedRun& run, ScenarioSpec plan_spec) {
+InsertPlan MakeInsertPlan(const RecordedRun& run, const ScenarioSpec& plan_spec) {
   InsertPlan plan;
-  const std::string intensities = UseIntensities(run.intensities, plan_spec);
   ScenarioSpec& scenario = plan.scenario;
   scenario = OnRecordedLine(run, plan_spec);
   plan.identity = IdentityOf(plan_spec);
@@ -395,7 +395,8 @@ InsertPlan MakeInsertPlan(const RecordedRun& run, ScenarioSpec plan_spec) {
   plan.world = std::make_shared<const RecordedWorld>(run.way, things, std::move(stands));
   SetPlaces(run.line, *things, plan);
   UseIntensityScale(run.recording, plan);
-  if (!intensities.empty()) plan.remarks.push_back(intensities);
+  const bool has_things = !plan_spec.world.objects.empty() || !plan_spec.world.trains.empty();
+  if (has_things && !run.intensities.empty()) plan.remarks.push_back(run.intensities);
   return plan;
 }
 

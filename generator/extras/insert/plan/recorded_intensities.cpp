@@ -1,15 +1,15 @@
 #include "generator/extras/insert/plan/recorded_intensities.h"
 
+#include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <utility>
 
-#include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/detect/base/beam_optics.h"
 #include "core/detect/kernels/surface_response.h"
 #include "core/io/recording/recording_kinds.h"
+#include "core/scenario/json_source.h"
 #include "generator/extras/insert/intensity_scale.h"
 #include "railcast/io/recording.h"
 
@@ -19,21 +19,27 @@ namespace {
 constexpr std::size_t kLag = 1;  // Beyond a cell of textures, and not much.
 static_assert(kTextureLags_m[kLag] == 0.1);
 
-void FindGiven(const std::filesystem::path& plan_file, RecordedIntensities& recorded) {
-  using Json = nlohmann::json;
-  const Json plan = Json::parse(ReadFileWhole(plan_file));
-  recorded.is_noise_given = plan.contains(Json::json_pointer("/lidar/receiver/intensity_noise"));
+/// Whether a plan, or one that it builds on, gives its sensor the noise. That of a sensor's file is
+/// of all sensors of its kind.
+bool GivesNoise(const std::filesystem::path& plan_file) {
+  JsonSource source;
+  std::optional<Node> node = source.Open(plan_file);
+  for (const std::string key : {"lidar", "receiver", "intensity_noise"}) {
+    const bool is_of_sensor = key == "receiver";
+    if (is_of_sensor && node->json->is_string()) return false;
+    const auto object = source.Members(*node);
+    const auto member =
+        std::ranges::find_if(object->members, [&](const Member& each) { return each.key == key; });
+    if (member == object->members.end() || (is_of_sensor && member->layer > 0)) return false;
+    node = member->value;
+  }
+  return true;
 }
 
 std::string WhyNot(const GridTurns& grids, const TurnNoise& noise) {
   if (grids.frames.empty()) return "it has no whole turn as a grid";
   if (noise.has_moved) return "its sensor moved";
   if (grids.frames.size() < 2) return "it has one whole turn only";
-  for (const JackknifedFigure* const figure :
-       {&noise.intensity.robust, &noise.texture.at(kLag).robust}) {
-    if (std::isfinite(figure->value)) continue;
-    return "its smooth surfaces are too few (" + NumberText(figure->num) + " pairs of returns)";
-  }
   return "";
 }
 
@@ -48,9 +54,16 @@ double ShareKept(const BeamSpec& beam, double range_m) {
                          kPerCell * kPerCell * h * h * w * w);
 }
 
-/// The figure, where it is told from 0.
-double ValueOf(const JackknifedFigure& figure) {
-  return figure.value > 2.0 * figure.error ? figure.value : 0.0;
+/// Why a figure is not used; empty if it is.
+std::string WhyNotUsed(const JackknifedFigure& figure) {
+  if (std::isfinite(figure.value)) {
+    return figure.value > 0.0 && figure.value <= 2.0 * figure.error
+               ? "since " + ShortText(figure.value) + " is less than twice its standard error"
+               : "";
+  }
+  return "since smooth surfaces (" + NumberText(figure.num) + " pairs of returns) lie in " +
+         NumberText(figure.num_parts) + " of the " + NumberText(JackknifedFigure::kLeastParts) +
+         " directions that are needed";
 }
 
 std::string FigureText(const JackknifedFigure& figure, double scale) {
@@ -61,18 +74,22 @@ std::string FigureText(const JackknifedFigure& figure, double scale) {
 /// @returns What is used, as UseTexture().
 std::string UseNoise(const RecordedIntensities& recorded, ScenarioSpec& plan) {
   constexpr double kPercent = 100.0;
-  const double noise = std::sqrt(std::expm1(std::pow(ValueOf(recorded.noise), 2)));
-  if (noise > 1.0) return "noise of the sensor's file, since more than 100 % were measured";
+  std::string why_not = WhyNotUsed(recorded.noise);
+  const double noise = std::sqrt(std::expm1(recorded.noise.value * recorded.noise.value));
+  if (noise > 1.0) why_not = "since more than 100 % were measured";
+  if (!why_not.empty()) return "noise of the sensor's file, " + why_not;
   plan.lidar.receiver.intensity_noise = noise;
   return "noise of " + ShortText(kPercent * noise) + " % from turn to turn " +
          FigureText(recorded.noise, kPercent);
 }
 
 std::string UseTexture(const RecordedIntensities& recorded, ScenarioSpec& plan) {
-  const double seen = ValueOf(recorded.texture);
+  std::string why_not = WhyNotUsed(recorded.texture);
+  const double seen = recorded.texture.value;
   const double kept = ShareKept(plan.lidar.beam, recorded.range_m);
   const double texture = std::sqrt(std::log1p(std::expm1(seen * seen) / kept));
-  if (texture > 2.0) return "textures of the materials' file, since beams are too wide to tell";
+  if (texture > 2.0) why_not = "since beams are too wide to tell";
+  if (!why_not.empty()) return "textures of the materials' file, " + why_not;
   for (Material& material : plan.materials) {
     const bool is_like = material.texture == 0.0 && material.retroreflectance == 0.0;
     if (is_like) material.texture = texture;
@@ -97,32 +114,38 @@ RecordedIntensities IntensitiesOf(std::vector<RecordedFrame> turns, double per_r
           .range_m = noise.texture_range_m.at(kLag)};
 }
 
-RecordedIntensities MeasureIntensities(const std::filesystem::path& plan_file,
-                                       const std::filesystem::path& recording) {
+std::optional<RecordedIntensities> MeasureIntensities(const std::filesystem::path& plan_file,
+                                                      const ScenarioSpec& plan,
+                                                      const std::filesystem::path& recording,
+                                                      const std::vector<Transform>& at_frames) {
   constexpr std::size_t kMostTurns = 5;
+  constexpr double kStands_m = 0.05;
+  const EffectSet effects = EffectsOf(plan);
+  const bool wants_noise = effects.intensity_noise && !GivesNoise(plan_file);
+  if (!wants_noise && !effects.texture) return std::nullopt;
   const auto opened = OpenRecording(recording);
-  if (IsSimulated(opened->info())) return {.is_simulated = true};
+  if (IsSimulated(opened->info())) return std::nullopt;
   std::vector<RecordedFrame> turns = WholeTurns(*opened, kMostTurns);
   IntensityScaleFinder finder(opened->info());
   for (const RecordedFrame& turn : turns) finder.Add(turn);
   RecordedIntensities recorded = IntensitiesOf(std::move(turns), finder.Found().per_reflectance);
-  FindGiven(plan_file, recorded);
+  recorded.wants_noise = wants_noise;
+  recorded.wants_texture = effects.texture;
+  const std::size_t last = std::min(kMostTurns, at_frames.size()) - 1;
+  const Vector3 way_m = at_frames.at(last).translation() - at_frames.at(0).translation();
+  if (recorded.why_not.empty() && way_m.norm() > kStands_m) recorded.why_not = "its sensor moved";
   return recorded;
 }
 
 std::string UseIntensities(const RecordedIntensities& recorded, ScenarioSpec& plan) {
-  const EffectSet effects = EffectsOf(plan);
-  const bool has_things = !plan.world.objects.empty() || !plan.world.trains.empty();
-  const bool wants_noise = effects.intensity_noise && !recorded.is_noise_given;
-  if (recorded.is_simulated || !has_things || !(wants_noise || effects.texture)) return "";
   if (!recorded.why_not.empty()) {
     return "intensities of what is put in: noise and texture of the sensor's and the materials' "
            "files, since the recording does not tell its own: " +
            recorded.why_not;
   }
-  std::string used = wants_noise ? UseNoise(recorded, plan) : "";
-  if (wants_noise && effects.texture) used += "; ";
-  if (effects.texture) used += UseTexture(recorded, plan);
+  std::string used = recorded.wants_noise ? UseNoise(recorded, plan) : "";
+  if (recorded.wants_noise && recorded.wants_texture) used += "; ";
+  if (recorded.wants_texture) used += UseTexture(recorded, plan);
   return "intensities of what is put in, as measured on the recording's smooth surfaces: " + used;
 }
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "generator/extras/insert/insert_plan.h"
-#include "generator/extras/insert/plan/recorded_intensities.h"
 #include "generator/extras/insert/plan/recorded_line.h"
 #include "generator/extras/insert/plan/recorded_way.h"
 #include "railcast/scenario.h"
@@ -17,10 +16,12 @@ namespace railcast {
 /// A plan beside its recording, of which all is read that other plans for it need, too.
 struct RecordedRun {
   std::filesystem::path recording;
-  ScenarioSpec plan;  ///< As it was written, with the recording's sensor if it names none.
+  /// As it was written, with the recording's sensor if it names none, and the noise and texture of
+  /// its intensities (UseIntensities()).
+  ScenarioSpec plan;
   RecordedWay way{};
   RecordedLine line{};
-  RecordedIntensities intensities{};
+  std::string intensities{};  ///< Whose these are, in a sentence; empty if the plan wants none.
   std::vector<std::string> remarks{};  ///< What was found or assumed on the way.
 
   [[nodiscard]] std::uint32_t num_frames() const {
@@ -50,10 +51,9 @@ struct RecordedRun {
 /// @throws InputError as ReadInsertPlan() does for what the plan has and for places of objects.
 [[nodiscard]] ScenarioSpec OnRecordedLine(const RecordedRun& run, ScenarioSpec plan);
 
-/// Makes such a plan ready to be simulated, with `run.intensities` (UseIntensities()), which its
-/// identity has, too. Of the recording, frames near objects are read for the ground, and the first
-/// few for the scale of their intensities.
+/// Makes such a plan ready to be simulated. Of the recording, frames near objects are read for the
+/// ground, and the first few for the scale of their intensities.
 /// @throws InputError as OnRecordedLine() does.
-[[nodiscard]] InsertPlan MakeInsertPlan(const RecordedRun& run, ScenarioSpec plan);
+[[nodiscard]] InsertPlan MakeInsertPlan(const RecordedRun& run, const ScenarioSpec& plan);
 
 }  // namespace railcast

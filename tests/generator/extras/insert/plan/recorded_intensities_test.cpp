@@ -12,6 +12,7 @@
 
 #include "generator/extras/insert/firing_finder.h"
 #include "generator/extras/insert/inserter.h"
+#include "generator/extras/insert/plan/recorded_run.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/extras/insert/closed_loop.h"
 #include "tests/generator/extras/insert/plan/plan_project.h"
@@ -96,7 +97,6 @@ std::vector<InsertedFrame> InsertInto(const std::vector<RecordedFirings>& turns,
 
 /// The texture from cell to cell by which the materials get the measured one.
 double CellTexture(const RecordedIntensities& recorded, ScenarioSpec scenario) {
-  scenario.world.objects.emplace_back();
   for (Material& material : scenario.materials) material.texture = 0.0;
   (void)UseIntensities(recorded, scenario);
   return scenario.materials.front().texture;
@@ -125,7 +125,6 @@ TEST(RecordedIntensities, AreThoseOfWhatIsPutIn) {
   const RecordedIntensities recorded = IntensitiesOf(FramesOf(turns), 1.0);
   LoopSensor plain = StandingSensor(0.0, 0.0);
   plain.scenario.seed = 7;
-  plain.scenario.world.objects.emplace_back();
   EXPECT_THAT(UseIntensities(recorded, plain.scenario), HasSubstr("as measured on the recording"));
   const auto walls = ThingsAlone(plain.scenario, WallsAt(4.0));
   walls->velocity_chunk_mps.setZero();
@@ -151,7 +150,6 @@ TEST(RecordedIntensities, StayThoseOfTheFilesWhereTheRecordingDoesNotTell) {
   std::vector<RecordedFrame> turns = FramesOf(RecordWalls(sensor, 6.0));
   const auto said = [&](const std::vector<RecordedFrame>& of) {
     ScenarioSpec plan = sensor.scenario;
-    plan.world.objects.emplace_back();
     std::string text = UseIntensities(IntensitiesOf(of, 1.0), plan);
     const bool is_as_it_was =
         plan.lidar == sensor.scenario.lidar && plan.materials == sensor.scenario.materials;
@@ -169,17 +167,45 @@ TEST(RecordedIntensities, GiveWayToThePlansOwn) {
   const LoopSensor sensor = StandingSensor(kNoise, kTexture);
   RecordedIntensities recorded = IntensitiesOf(FramesOf(RecordWalls(sensor, 6.0)), 1.0);
   ScenarioSpec plan = StandingSensor(0.05, 0.1).scenario;
-  EXPECT_EQ(UseIntensities(recorded, plan), "");  // There is nothing to be put in.
-  plan.world.objects.emplace_back();
-  recorded.is_noise_given = true;
+  recorded.wants_noise = false;
   EXPECT_THAT(UseIntensities(recorded, plan), Not(HasSubstr("noise of")));
   EXPECT_EQ(plan.lidar.receiver.intensity_noise, 0.05);
   EXPECT_EQ(plan.materials.front().texture, 0.1);
   plan.materials.front().texture = 0.0;
   (void)UseIntensities(recorded, plan);
   EXPECT_GT(plan.materials.front().texture, 0.2);
-  recorded = {.is_simulated = true};
-  EXPECT_EQ(UseIntensities(recorded, plan), "");
+}
+
+TEST(RecordedIntensities, StayThoseOfTheFilesWhereAFigureIsNotToldFromZero) {
+  RecordedIntensities recorded{.noise = {.value = 0.05, .error = 0.03},
+                               .texture = {.num_parts = 7, .num = 2000}};
+  ScenarioSpec plan = StandingSensor(0.07, 0.0).scenario;
+  const ScenarioSpec before = plan;
+  const std::string said = UseIntensities(recorded, plan);
+  EXPECT_THAT(said, HasSubstr("noise of the sensor's file, since 0.05 is less than twice"));
+  EXPECT_THAT(said, HasSubstr("(2000 pairs of returns) lie in 7 of the 10 directions"));
+  EXPECT_EQ(plan.lidar, before.lidar);
+  EXPECT_EQ(plan.materials, before.materials);
+  recorded.noise = {.value = 0.0, .error = 0.0};
+  (void)UseIntensities(recorded, plan);
+  EXPECT_EQ(plan.lidar.receiver.intensity_noise, 0.0);
+}
+
+TEST(RealIntensities, GiveWayToThoseOfAPlanOnWhichAnotherBuilds) {
+  const fs::path recording = RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula/vls128_single.pcap";
+  if (!fs::exists(recording)) GTEST_SKIP() << "no " << recording;
+  const TemporaryDirectory folder;
+  const std::string sensor = "\"" RAILCAST_SOURCE_DIR "/scenarios/sensors/vls128.json\"";
+  const auto noise_with = [&](const std::string& lidar) {
+    WritePlan(folder.path(), R"({"poses": "standing"})", "",
+              R"("fidelity": "surface", "lidar": )" + lidar + ", ");
+    WriteFileWhole(folder.path() / "own.json", R"({"version": 1, "file": "plan.json", "seed": 3})");
+    return ReadRecordedRun(folder.path() / "own.json", recording)
+        .plan.lidar.receiver.intensity_noise;
+  };
+  EXPECT_EQ(noise_with(R"({"file": )" + sensor + R"(, "receiver": {"intensity_noise": 0.02}})"),
+            0.02);
+  EXPECT_NE(noise_with(sensor), ReadMinimalWith("vls128").lidar.receiver.intensity_noise);
 }
 
 /// Puts walls between the sensor of a capture and most that it has met.
@@ -202,7 +228,10 @@ void PutWallsInto(const fs::path& recording) {
                      recording);
   EXPECT_THAT(plan.remarks.back(), HasSubstr("as measured on the recording's smooth surfaces"));
   for (Material& material : plan.scenario.materials) material.reflectivity = 0.22;
-  const RecordedIntensities recorded = MeasureIntensities(folder.path() / "plan.json", recording);
+  const RecordedIntensities recorded =
+      MeasureIntensities(folder.path() / "plan.json", StandingSensor(0.0, 0.0).scenario, recording,
+                         {Transform::Identity()})
+          .value();
   EXPECT_NEAR(plan.scenario.lidar.receiver.intensity_noise, recorded.noise.value,
               0.02 * recorded.noise.value);
   const auto opened = OpenRecording(recording);
