@@ -28,10 +28,6 @@ double PlainMedian(std::vector<double>& samples) {
   return 0.5 * (lower + upper);
 }
 
-double ChiSquared(double degrees, double share) {
-  return boost::math::quantile(boost::math::chi_squared(degrees), share);
-}
-
 }  // namespace
 
 double NormalQuantile() {
@@ -40,6 +36,10 @@ double NormalQuantile() {
 
 double StudentQuantile(double degrees) {
   return boost::math::quantile(boost::math::students_t(degrees), 1.0 - kTail);
+}
+
+double ChiSquared(double degrees, double share) {
+  return boost::math::quantile(boost::math::chi_squared(degrees), share);
 }
 
 Estimate ScaleEstimate(double scale, double degrees, std::uint64_t num) {

@@ -65,6 +65,8 @@ struct Estimate {
 [[nodiscard]] double NormalQuantile();
 /// As above, for a quantity whose error was estimated with so many degrees of freedom.
 [[nodiscard]] double StudentQuantile(double degrees);
+/// The quantile of chi-squared below which this share lies.
+[[nodiscard]] double ChiSquared(double degrees, double share);
 
 /// Standard deviation of normal samples, estimated with so many degrees of freedom, with its
 /// chi-squared interval.

@@ -1,7 +1,6 @@
 #include "analysis/extras/rare/rare_event.h"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <numeric>
 #include <string_view>
@@ -68,10 +67,6 @@ RareLevel LevelOf(const std::vector<double>& terms, double more_squares = 0.0) {
   return level;
 }
 
-double ChiSquared(double degrees, double share) {
-  return boost::math::quantile(boost::math::chi_squared(degrees), share);
-}
-
 // @param terms Whose sum is the mean, but for signs.
 Estimate IntervalOf(double mean,
                     double squared_error,
@@ -84,8 +79,10 @@ Estimate IntervalOf(double mean,
     return std::min(sum / degrees * ChiSquared(degrees, share), 1.0);
   };
   const double largest = *std::ranges::max_element(terms);
-  return {std::min(mean, 1.0), quantile(mean, squared_error, kTail),
-          quantile(mean + largest, squared_error + largest * largest, 1.0 - kTail), num};
+  // Where two levels nearly cancel, the law of so small a sum has no upper end to speak of.
+  const double normal = std::min(mean + NormalQuantile() * std::sqrt(squared_error), 1.0);
+  const double high = quantile(mean + largest, squared_error + largest * largest, 1.0 - kTail);
+  return {std::min(mean, 1.0), quantile(mean, squared_error, kTail), std::max(high, normal), num};
 }
 
 double UnknownShare(const WeightedTrials& trials, double RareScores::*level) {
@@ -198,8 +195,9 @@ RareFigure EstimateRareFigure(const RareEvidence& evidence) {
     return figure;
   }
   if (num_failed == 0) {
-    figure.at_most = ExactPoissonRate(0, kDefensiveShare * static_cast<double>(num_dearest)).high;
-    figure.refusal = "nothing failed";
+    const double share_of_p = figure.is_plain ? 1.0 : kDefensiveShare;
+    figure.at_most = ExactPoissonRate(0, share_of_p * static_cast<double>(num_dearest)).high;
+    figure.refusal = figure.is_plain ? "nothing failed as drawn" : "nothing failed";
     return figure;
   }
   for (double& term : all_terms) term = std::abs(term);

@@ -59,11 +59,12 @@ struct RareFigure {
 /// Estimates the probability of failure on the dear level, mean(w 1(cheap fails)) over the cheap
 /// trials plus mean(w (1(dear fails) - 1(cheap fails))) over the pairs (two levels; Giles 2015,
 /// Acta Numerica 24), with Fay and Feuer's interval (1997, Statistics in Medicine 16) of the
-/// variances of both means, whose upper end allows for one more failure of the largest weight. The
-/// variance of the correction counts two disagreements more than were seen, so that it is not 0
-/// where none was (rule of three). A cheap trial is weighed as one that either proposal may have
-/// drawn (the balance heuristic; Veach and Guibas 1995), so that a kind of failure that one of them
-/// has missed has no great weights.
+/// variances of both means, whose upper end allows for one more failure of the largest weight of
+/// those met (theirs: of all), and is no nearer than that of a normal law. The variance of the
+/// correction counts two disagreements more than were seen, so that it is not 0 where none was
+/// (rule of three). A cheap trial is weighed as one that either proposal may have drawn (the
+/// balance heuristic; Veach and Guibas 1995), so that a kind of failure that one of them has missed
+/// has no great weights.
 ///
 /// Of trials that p has drawn, on one level, it is the share that failed, with Wilson's interval.
 /// Otherwise there is no figure if the intervals of the two proposals do not overlap, if
@@ -79,8 +80,9 @@ struct RareFigure {
 struct RareTrial {
   std::uint32_t index{};  ///< Its number, from which all follows that is random beside the point.
   RarePoint point{};
-  double weight{};  ///< p / q, in the search by the stage, later as in WeightedTrials.
-  bool is_pair{};   ///< Whether it is tried on both levels.
+  /// p / q by what drew it; of trials for the figure, once they are tried, as in WeightedTrials.
+  double weight{};
+  bool is_pair{};  ///< Whether it is tried on both levels.
 };
 
 /// Tries all of a list, and returns their scores in that order; nothing if it was stopped.

@@ -272,6 +272,18 @@ TEST(RareEvent, KnowsWhereAllTrialsAreEqual) {
   EXPECT_NEAR(figure.probability.high, 0.5025 + 1.96 * 0.0025, 1e-4);
 }
 
+TEST(RareEvent, HasAnUpperEndWhereTheLevelsNearlyCancel) {
+  const WeightedTrials cheap = Trials(3000, 1500, 0.02);
+  RareEvidence evidence{.cheap = {cheap, cheap}, .pairs = Trials(3000, 1499, 0.02)};
+  for (RareScores& scores : evidence.pairs.scores) scores.dear = 1.0;
+  const RareFigure figure = EstimateRareFigure(evidence);
+  ASSERT_TRUE(figure.is_known()) << figure.refusal;
+  EXPECT_NEAR(figure.probability.value, 0.02 * 1.0 / 3000.0, 1e-9);
+  // The variance of a trial is that of a share of a half, on both levels.
+  const double error = 0.02 * 0.5 * std::sqrt(1.0 / 6000.0 + 1.0 / 3000.0);
+  EXPECT_NEAR(figure.probability.high, figure.probability.value + 1.96 * error, 0.02 * error);
+}
+
 TEST(RareEvent, RefusesWhatIsNotKnownOnTheDearLevel) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   RareEvidence evidence{.cheap = {Trials(200, 100, 0.1), Trials(200, 100, 0.1)},
