@@ -281,7 +281,12 @@ void AddIntensities(const ReceiverFigures& figures, FitResult& result) {
     }
     result.parameters.push_back(parameter);
   };
-  add("lidar/receiver/intensity_noise", "Intensity noise", figures.intensity_noise.robust,
+  // The key is the relative deviation of what is log-normal (MeasurementParameters).
+  Estimate noise = figures.intensity_noise.robust;
+  for (double* const end : {&noise.value, &noise.low, &noise.high}) {
+    *end = std::sqrt(std::expm1(*end * *end));
+  }
+  add("lidar/receiver/intensity_noise", "Intensity noise", noise,
       figures.has_moved ? "the sensor moved"
                         : "fewer than two turns, or too few smooth surfaces of 0.12 to 0.25");
   add("lidar/receiver/channel_gain", "Gain of single channels", figures.channel_gain,

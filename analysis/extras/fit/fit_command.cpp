@@ -120,15 +120,18 @@ int RunFit(const FitOptions& options, const std::string& command_line) {
     const auto num = static_cast<double>(*info.num_frames * sources.size());
     progress.Show("frames", static_cast<double>(num_frames) / num);
   });
-  const std::vector<RecordedFrame> turns =
-      WholeTurns(*OpenRecording(sources.front()), FitProof::kMostTurns);
+  const bool has_intensities = settings.is_physical && settings.has_reflectances;
   std::optional<FitProof> proof;
-  if (scenario) proof.emplace(turns, ShownPath(sources.front()));
+  std::optional<ReceiverFigures> figures;
+  if (scenario || has_intensities) {
+    const std::vector<RecordedFrame> turns =
+        WholeTurns(*OpenRecording(sources.front()), FitProof::kMostTurns);
+    if (scenario) proof.emplace(turns, ShownPath(sources.front()));
+    if (has_intensities) figures = FindReceiverFigures(turns);
+  }
   if (options.scenario && proof->has_planes()) trials.losses = proof->Losses();
   FitResult result = FitModel(trials, settings);
-  if (settings.is_physical && settings.has_reflectances) {
-    AddIntensities(FindReceiverFigures(turns), result);
-  }
+  if (figures) AddIntensities(*figures, result);
   if (proof) Judge(*proof, *scenario, options, result);
   progress.End();
 
