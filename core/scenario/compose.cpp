@@ -235,9 +235,8 @@ std::vector<std::unique_ptr<Simulator>> MakeSimulators(const ScenarioSpec& spec,
 
 std::vector<std::unique_ptr<Simulator>> MakeSimulators(const ScenarioSpec& spec,
                                                        int num_threads,
-                                                       const std::string& isa,
                                                        SharedScenery& shared) {
-  return MakeSimulators(spec, num_threads, isa, &shared);
+  return MakeSimulators(spec, num_threads, shared.isa, &shared);
 }
 
 std::unique_ptr<Simulator> MakeSimulator(const ScenarioSpec& spec,

@@ -18,9 +18,10 @@ struct SharedScenery {
   /// Of the chunks that are kept: 100 to 200 MB with their trees (docs/results/dataset_costs.md).
   static constexpr std::size_t kMostTriangles = 1'000'000;
 
-  explicit SharedScenery(const std::string& isa = {})
-      : stock(std::make_shared<TraceStock>(isa, kMostTriangles)) {}
+  explicit SharedScenery(const std::string& isa_of_trace = {})
+      : isa(isa_of_trace), stock(std::make_shared<TraceStock>(isa, kMostTriangles)) {}
 
+  std::string isa;
   SharedLines lines;
   std::shared_ptr<TraceStock> stock;
 };
@@ -29,7 +30,6 @@ struct SharedScenery {
 /// instruction set of `shared`.
 [[nodiscard]] std::vector<std::unique_ptr<Simulator>> MakeSimulators(const ScenarioSpec& spec,
                                                                      int num_threads,
-                                                                     const std::string& isa,
                                                                      SharedScenery& shared);
 
 }  // namespace railcast

@@ -56,8 +56,9 @@ RailWorld::RailWorld(const WorldSpec& world,
   const Alignment& alignment = *draft.alignment;
   std::vector<TrackPath> boom_paths = BoomPaths(draft);
   const LineKey key = KeyOf(draft, seed);
-  // What a survey has depends on more than the key.
-  bool is_known = shared != nullptr && draft.survey == nullptr;
+  // What a survey has depends on more than the key; a file of heights takes much memory, and may
+  // change.
+  bool is_known = shared != nullptr && draft.survey == nullptr && !draft.elevation;
   const auto lay = [&] {
     is_known = false;
     return LayLine(draft, key);
@@ -65,7 +66,7 @@ RailWorld::RailWorld(const WorldSpec& world,
   line_ = is_known ? shared->parts_->lines.Get(key, lay) : lay();
   const auto grow = [&] { return std::make_shared<const PlantsOnDemand>(surfaces, seed); };
   setting_ = std::make_shared<const Setting>(Setting{
-      draft.world, labels, materials,
+      std::move(draft.world), labels, materials,
       shared == nullptr ? grow() : shared->parts_->plants.Get(PlantsKey{surfaces, seed}, grow),
       RideOf(vehicle, world.seed), is_known});
 

@@ -96,7 +96,7 @@ struct RailWorld::Things {
   }
 };
 
-/// What a line is made from. Files that the spec names are taken to stay as they are.
+/// What a line is made from that has neither a survey nor a file of heights.
 struct LineKey {
   WorldSpec world;  ///< Without objects, trains and plants.
   RailSurfaces surfaces;

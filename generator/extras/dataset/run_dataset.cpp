@@ -194,8 +194,7 @@ class DatasetRun {
     AtPlace(ShownPath(recipe_.file) + ": /", [&] { CheckNamesOfFolders(drawn.scenario); });
     RunPlan plan = PlanRun(std::move(drawn.scenario), ChoicesOfScenario(recipe_, choices_, number),
                            ShownPath(recipe_.file) + ": scenario " + std::to_string(number));
-    FrameMaker maker(plan.scenario, MakeSimulators(plan.scenario, turn.num_threads,
-                                                   plan.sensors.front().spec.isa, scenery_));
+    FrameMaker maker(plan.scenario, MakeSimulators(plan.scenario, turn.num_threads, scenery_));
     SetFrames(maker, plan);
     // A recipe may draw the reference itself for some of its scenarios, which needs no certificate.
     for (std::size_t i = 0; i < plan.sensors.size(); ++i) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "railcast/rail_world.h"
 #include "railcast/scenario.h"
 #include "railcast/simulator.h"
+#include "tests/core/io/temporary_directory.h"
 #include "tests/core/scenario/scenario_files.h"
 #include "tests/support/frame_bytes.h"
 
@@ -56,7 +58,7 @@ TEST(SharedScenery, LeavesEveryByteOfFramesAsItIs) {
     Frame alone;
     Frame among_others;
     MakeSimulators(spec, 1).front()->Scan(2, alone);
-    MakeSimulators(spec, 2, "", shared).front()->Scan(2, among_others);
+    MakeSimulators(spec, 2, shared).front()->Scan(2, among_others);
     EXPECT_TRUE(FrameBytes(alone) == FrameBytes(among_others));
   }
 }
@@ -65,11 +67,46 @@ TEST(SharedScenery, BuildsTheLineOfScenariosOnceThatDifferInOtherThings) {
   SharedScenery shared;
   std::vector<std::shared_ptr<const void>> lines;
   for (const ScenarioSpec& spec : Scenarios()) {
-    lines.push_back(WorldOf(*MakeSimulators(spec, 1, "", shared).front()).bare_line());
+    lines.push_back(WorldOf(*MakeSimulators(spec, 1, shared).front()).bare_line());
   }
   ASSERT_NE(lines[1], nullptr);
   for (const std::size_t same : {2U, 3U, 7U, 8U, 9U}) EXPECT_EQ(lines[same], lines[1]) << same;
   for (const std::size_t first : {0U, 4U, 5U, 6U}) EXPECT_EQ(lines[first], nullptr) << first;
+}
+
+// Blades and frogs lie as the vehicle runs.
+TEST(SharedScenery, HasTurnoutsAsEachVehiclesRouteHasThem) {
+  ScenarioSpec branches = ReadScenario(ScenariosDir() / "yard.json");
+  branches.lidar.scan.pattern = RasterSpec{60.0, 20.0, 1.0};
+  branches.vehicle.motion = {};
+  ScenarioSpec runs_on = branches;
+  runs_on.vehicle.route.clear();
+  SharedScenery shared;
+  std::vector<std::string> frames;
+  for (const ScenarioSpec& spec : {branches, runs_on, branches, runs_on}) {
+    Frame alone;
+    Frame among_others;
+    MakeSimulators(spec, 1).front()->Scan(0, alone);
+    MakeSimulators(spec, 1, shared).front()->Scan(0, among_others);
+    frames.push_back(FrameBytes(among_others));
+    EXPECT_TRUE(FrameBytes(alone) == frames.back());
+  }
+  EXPECT_NE(frames[0], frames[1]);
+}
+
+// It may change between scenarios, each of which keeps its own.
+TEST(SharedScenery, SharesNoLineWithAFileOfHeights) {
+  const TemporaryDirectory folder;
+  {
+    std::ofstream grid(folder.path() / "dem.asc");
+    grid << "ncols 60\nnrows 60\nxllcorner -1500\nyllcorner -1500\ncellsize 50\n";
+    for (int cell = 0; cell < 60 * 60; ++cell) grid << "0 ";
+  }
+  ScenarioSpec spec = Base();
+  spec.world.terrain.elevation = ElevationSpec{(folder.path() / "dem.asc").string(), {}};
+  SharedLines lines;
+  static_cast<void>(MakeWorldOf(spec, lines));
+  EXPECT_EQ(MakeWorldOf(spec, lines)->bare_line(), nullptr);
 }
 
 TEST(SharedScenery, KeepsNoChunksBeyondItsTriangles) {
