@@ -145,7 +145,7 @@ void LevelCant(std::span<const ChainageRange> level, AlignmentSpec& line) {
     double s_m = std::max(0.0, stretch.begin_s_m);
     const double end_s_m = std::min(length_m, stretch.end_s_m);
     while (s_m < end_s_m && std::abs(alignment.At(s_m).cant_rad) <= kLevel_rad) ++s_m;
-    return s_m < end_s_m;
+    return s_m < end_s_m || std::abs(alignment.At(end_s_m).cant_rad) > kLevel_rad;
   };
   std::vector<ChainageRange> in_cant;
   std::ranges::copy_if(level, std::back_inserter(in_cant), is_in_cant);
@@ -162,7 +162,8 @@ void LevelCant(std::span<const ChainageRange> level, AlignmentSpec& line) {
   };
   std::vector<double> chainages_m;
   for (double s_m = 0.0; s_m < length_m; s_m += kStep_m) chainages_m.push_back(s_m);
-  for (const ChainageRange& stretch : in_cant) {
+  // Between its places, cant is linear: also stretches that were level have places at their ends.
+  for (const ChainageRange& stretch : level) {
     for (const double s_m : {stretch.begin_s_m, stretch.end_s_m}) {
       if (s_m > 0.0 && s_m < length_m) chainages_m.push_back(s_m);
     }

@@ -22,6 +22,7 @@ constexpr double kLeastApart_m = kLeastTrackDistance_m + 0.02;
 constexpr double kOnAxis_m = 1.5;
 /// Half the length of a crossing: the frogs of one at 1:9 are 13 m from its middle.
 constexpr double kHalfDiamond_m = 15.0;
+constexpr double kLevel_rad = 1e-3;  // As CheckNetwork() asks for at crossings.
 
 TrackDraft DraftOf(TrackSpec spec, TrackCourse course) {
   TrackDraft draft{std::move(spec), std::move(course), {}, {}, 0, {}};
@@ -93,18 +94,13 @@ bool TrackNetwork::IsFree(std::size_t track, double one_s_m, double other_s_m) c
   });
 }
 
-double TrackNetwork::InMappedCrossings_m(std::size_t track,
-                                         double one_s_m,
-                                         double other_s_m) const {
+bool TrackNetwork::IsInMappedCrossing(std::size_t track, double one_s_m, double other_s_m) const {
   const auto [from_s_m, to_s_m] = std::minmax(one_s_m, other_s_m);
-  double sum_m = 0.0;
-  for (const Eigen::Vector2d& place_m : crossings_m_) {
-    if (TrackCrossingAt(place_m)) continue;
-    if (std::abs(tracks_[track].OffsetNear_m(place_m.x()) - place_m.y()) > kOnAxis_m) continue;
-    sum_m += std::max(0.0, std::min(to_s_m, place_m.x() + kHalfDiamond_m) -
-                               std::max(from_s_m, place_m.x() - kHalfDiamond_m));
-  }
-  return sum_m;
+  return std::ranges::any_of(crossings_m_, [&](const Eigen::Vector2d& place_m) {
+    return from_s_m < place_m.x() + kHalfDiamond_m && to_s_m > place_m.x() - kHalfDiamond_m &&
+           std::abs(tracks_[track].OffsetNear_m(place_m.x()) - place_m.y()) <= kOnAxis_m &&
+           std::abs(alignment_.At(place_m.x()).cant_rad) <= kLevel_rad && !TrackCrossingAt(place_m);
+  });
 }
 
 std::optional<TrackDraft> TrackNetwork::Make(const TrackSpec& spec) const {
