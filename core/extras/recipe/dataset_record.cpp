@@ -19,6 +19,7 @@ void Describe(Archive& a, DatasetRecord& s) {
   a.Optional("shard", s.shard, "Number and count: 2/7.");
   a.Ensure({"shard"}, s.shard.empty() || ParseShard(s.shard), "must be a shard");
   a.Optional("certify", s.certify, "Share of the time that certificates may take.");
+  a.Optional("converted", s.is_converted, "Whether insertions have become sequences.");
 }
 
 void Describe(Archive& a, SequenceRecord& s) {

@@ -36,6 +36,7 @@ struct DatasetRecord {
   std::string files_hash{};         ///< Of the files that the recipe names; empty if it names none.
   std::string shard{};              ///< "2/7"; empty for a whole data set.
   std::optional<double> certify{};  ///< As RunRecord::certify.
+  bool is_converted{};  ///< Whether insertions have become sequences, which `dataset` cannot make.
 };
 void Describe(Archive& a, DatasetRecord& s);
 

@@ -44,6 +44,9 @@ DatasetSpec SpecOfConvertedSet(const ConvertChoices& choices) {
                    .shard = {}};
   if (!spec.record.shard.empty()) fail("a whole data set (got shard " + spec.record.shard + ")");
   if (spec.record.is_merged) fail("a data set without merged clouds (got --merged)");
+  const PlacedLine line = ScenarioLines(source / kScenariosFile, {}).Need();
+  const auto first = ReadRecordLine<ScenarioRecord>(line.text, line.place);
+  spec.record.is_converted = !first.sequences.empty() && !first.sequences[0].files.empty();
   spec.record.format = choices.format;
   if (ParseFrameFormat(choices.format).files.empty()) {
     throw InputError(
@@ -142,7 +145,9 @@ class DatasetConversion {
   void CheckFiles(std::uint32_t scenario, const SequenceRecord& sequence) const {
     for (const auto& [name, hash] : sequence.files) {
       const fs::path file = fs::path(SequenceFolderOf(scenario)) / name;
-      (void)ReadHashedFile(choices_.recording, {file.string(), hash, {}}, kScenariosFile);
+      if (HashFile(choices_.recording / file).hash == hash) continue;
+      throw InputError(ShownPath(choices_.recording / file) +
+                       ": must be the file that scenarios.jsonl names");
     }
   }
 

@@ -152,6 +152,7 @@ Losses LostOfSequence(const SequenceSummary& summary,
     if (!HasPoint(static_cast<Outcome>(i))) num_absent += counts.outcomes[i];
   }
   const bool has_all_slots = HasAllSlots(summary);
+  AddLoss("figures of certificates", summary.run.certify ? 1 : 0, lost);
   AddLoss("firings without a point", has_all_slots && !to.has_all_slots ? num_absent : 0, lost);
   const FieldSelection recorded = summary.run.fields.empty()
                                       ? FieldSelection()
@@ -167,6 +168,11 @@ Losses LostOfSequence(const SequenceSummary& summary,
   return lost;
 }
 
+void AddListsOfInsertion(const fs::path& recording, const InsertRange& range, Losses& lost) {
+  const bool is_insertion = fs::exists(recording / kInsertFile);
+  AddLoss("lists of what was put into a frame", is_insertion ? range.num : 0, lost);
+}
+
 }  // namespace
 
 bool BecomesSequence(const ConvertChoices& choices) {
@@ -178,6 +184,7 @@ bool BecomesSequence(const ConvertChoices& choices) {
 
 Losses LostBesidePoints(const fs::path& recording, const InsertRange& range) {
   Losses lost;
+  AddListsOfInsertion(recording, range, lost);
   const fs::path folder = SequenceIn(recording);
   if (folder.empty()) return lost;
   AddLoss("scenarios of the run", 1, lost);
@@ -238,9 +245,7 @@ ConvertResult ConvertSequence(const ConvertChoices& choices, const RunHooks& hoo
   result.is_complete = directory.is_complete();
   if (result.is_complete) {
     result.lost = LostOfSequence(summary, spec, directory.counts());
-    const bool is_insertion =
-        source != choices.recording && fs::exists(choices.recording / kInsertFile);
-    AddLoss("lists of what was put into a frame", is_insertion ? range.num : 0, result.lost);
+    AddListsOfInsertion(choices.recording, range, result.lost);
   }
   return result;
 }
