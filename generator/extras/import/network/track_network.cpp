@@ -94,13 +94,19 @@ bool TrackNetwork::IsFree(std::size_t track, double one_s_m, double other_s_m) c
   });
 }
 
-bool TrackNetwork::IsInMappedCrossing(std::size_t track, double one_s_m, double other_s_m) const {
+double TrackNetwork::InMappedCrossings_m(std::size_t track,
+                                         double one_s_m,
+                                         double other_s_m) const {
   const auto [from_s_m, to_s_m] = std::minmax(one_s_m, other_s_m);
-  return std::ranges::any_of(crossings_m_, [&](const Eigen::Vector2d& place_m) {
-    return from_s_m < place_m.x() + kHalfDiamond_m && to_s_m > place_m.x() - kHalfDiamond_m &&
-           std::abs(tracks_[track].OffsetNear_m(place_m.x()) - place_m.y()) <= kOnAxis_m &&
-           std::abs(alignment_.At(place_m.x()).cant_rad) <= kLevel_rad && !TrackCrossingAt(place_m);
-  });
+  double sum_m = 0.0;
+  for (const Eigen::Vector2d& place_m : crossings_m_) {
+    if (TrackCrossingAt(place_m)) continue;
+    if (std::abs(alignment_.At(place_m.x()).cant_rad) > kLevel_rad) continue;
+    if (std::abs(tracks_[track].OffsetNear_m(place_m.x()) - place_m.y()) > kOnAxis_m) continue;
+    sum_m += std::max(0.0, std::min(to_s_m, place_m.x() + kHalfDiamond_m) -
+                               std::max(from_s_m, place_m.x() - kHalfDiamond_m));
+  }
+  return sum_m;
 }
 
 std::optional<TrackDraft> TrackNetwork::Make(const TrackSpec& spec) const {

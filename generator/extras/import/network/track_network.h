@@ -58,9 +58,11 @@ class TrackNetwork {
   [[nodiscard]] TurnoutPlace PlaceOf(const TurnoutSpec& spec, bool opens_ahead) const;
   /// Whether no turnout and no crossing lies between two chainages of a track, in either order.
   [[nodiscard]] bool IsFree(std::size_t track, double one_s_m, double other_s_m) const;
-  /// Whether a crossing of the map that can be made, and is not yet, would have its frogs between
-  /// two chainages of a track, in either order.
-  [[nodiscard]] bool IsInMappedCrossing(std::size_t track, double one_s_m, double other_s_m) const;
+  /// How much of the stretch between two chainages of a track, in either order, is where crossings
+  /// of the map would have their frogs that can be made and are not yet.
+  [[nodiscard]] double InMappedCrossings_m(std::size_t track,
+                                           double one_s_m,
+                                           double other_s_m) const;
 
   /// A track by its specification, with all crossings of others that can be made; absent if it
   /// cannot be, or its turnouts overlap with others.

@@ -82,8 +82,9 @@ std::optional<TurnoutChoice> ChoiceAt(const TrackNetwork& network,
   TurnoutChoice choice{
       .spec = spec, .behind = branch.EndTowardsRising(), .track_slope = course.OffsetAt(s_m).slope};
   // Where there is another way, no turnout stands in the way of a crossing.
-  constexpr double kInCrossing = 100.0;
-  choice.off_cost = network.IsInMappedCrossing(meeting.track, s_m, end_s_m) ? kInCrossing : 0.0;
+  constexpr double kInCrossing_m = 1.0;
+  choice.off_cost =
+      Squared(network.InMappedCrossings_m(meeting.track, s_m, end_s_m) / kInCrossing_m);
   const double guess_m = choice.behind.x_m - fit.plan.start.x_m;
   const Foot foot =
       FootOn(fit.course, fit.plan.length_m(), {choice.behind.x_m, choice.behind.y_m}, guess_m);
