@@ -1,6 +1,5 @@
 #pragma once
 
-
 #include "railcast/frame.h"
 #include "railcast/io/recording.h"
 

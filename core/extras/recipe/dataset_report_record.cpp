@@ -1,6 +1,5 @@
 #include "core/extras/recipe/dataset_report_record.h"
 
-
 #include "core/base/text.h"
 #include "core/scenario/archive.h"
 

@@ -48,7 +48,8 @@ class RosOutput final : public LiveTopics {
             FrameMaker& maker);
 
   /// Hears commands and steps from now on.
-  /// @throws InputError "--commands-topic: ..." as Participant::AddReader() does, or "--step-topic: ...".
+  /// @throws InputError "--commands-topic: ..." as Participant::AddReader() does, or "--step-topic:
+  /// ...".
   void Listen(const RosOutputSpec& spec);
 
   [[nodiscard]] dds::Participant& participant() { return writers_.participant(); }

@@ -15,7 +15,6 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "generator/extras/osi/sensor_view.h"
 #include "core/extras/osi/trace_file.h"
 #include "core/extras/ros/bag/bag.h"
 #include "core/io/run/run_folder.h"
@@ -23,6 +22,7 @@
 #include "core/io/write_file.h"
 #include "core/rail/motion/track_path.h"
 #include "core/rail/traffic/trains.h"
+#include "generator/extras/osi/sensor_view.h"
 #include "generator/run/frame_maker.h"
 #include "generator/run/run_extras.h"
 #include "generator/run/run_plan.h"

@@ -9,8 +9,8 @@
 
 #include "core/extras/dds/participant.h"
 #include "core/extras/ros/messages/point_layout.h"
-#include "generator/extras/replay/replay_feed.h"
 #include "generator/extras/dds/ros_writers.h"
+#include "generator/extras/replay/replay_feed.h"
 #include "railcast/io/cloud_files.h"
 #include "railcast/io/recording.h"
 #include "railcast/io/stream.h"

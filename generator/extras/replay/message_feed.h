@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/extras/ros/bag/bag.h"
 #include "core/extras/dds/participant.h"
-#include "generator/extras/replay/replay_feed.h"
+#include "core/extras/ros/bag/bag.h"
 #include "generator/extras/dds/ros_writers.h"
+#include "generator/extras/replay/replay_feed.h"
 
 namespace railcast {
 

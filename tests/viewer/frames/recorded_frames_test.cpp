@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-
 #include "railcast/io/cloud_files.h"
 #include "tests/core/io/example_frame.h"
 #include "tests/core/io/message_of.h"

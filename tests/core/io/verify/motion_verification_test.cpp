@@ -60,9 +60,9 @@ TEST_F(VerifyMotion, FindsMissingSamplesInAnUnfinishedRun) {
 
 TEST_F(VerifyMotion, RefusesNamesThatLeadElsewhere) {
   Replace("run.json", "\"odometer\"", "\"../poses\"");
-  EXPECT_EQ(MessageOf([&] { (void)Faults(); }),
-            directory_.path().string() +
-                "/run.json: /motion_sensors: must be names of files (got [\"imu\",\"gnss\",\"../poses\"])");
+  EXPECT_EQ(MessageOf([&] { (void)Faults(); }), directory_.path().string() +
+                                                    "/run.json: /motion_sensors: must be names of "
+                                                    "files (got [\"imu\",\"gnss\",\"../poses\"])");
 }
 
 }  // namespace
