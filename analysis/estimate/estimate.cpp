@@ -43,9 +43,8 @@ double ChiSquared(double degrees, double share) {
 }
 
 Estimate ScaleEstimate(double scale, double degrees, std::uint64_t num) {
-  const boost::math::chi_squared distribution(degrees);
-  return {scale, scale * std::sqrt(degrees / boost::math::quantile(distribution, 1.0 - kTail)),
-          scale * std::sqrt(degrees / boost::math::quantile(distribution, kTail)), num};
+  return {scale, scale * std::sqrt(degrees / ChiSquared(degrees, 1.0 - kTail)),
+          scale * std::sqrt(degrees / ChiSquared(degrees, kTail)), num};
 }
 
 Estimate Proportion(std::uint64_t num_successes, std::uint64_t num) {

@@ -118,7 +118,6 @@ class DatasetConversion {
       // Of an insertion, the recording into which things were put stands in a folder of its own.
       const bool is_insertion = !sequence.files.empty();
       if (is_insertion) {
-        CheckFiles(record.scenario, sequence);
         sequence.folder = SequenceFolderOf(record.scenario);
         choices.recording = choices_.recording / sequence.folder;
       }
@@ -131,6 +130,7 @@ class DatasetConversion {
                                 "frames"
                               : ": must be a sequence in another format than kitti"));
       }
+      CheckFiles(record.scenario, sequence);
       MakeFolders(choices.directory);
       const ConvertResult made = ConvertSequence(choices, {[](auto, auto) {}, hooks_.is_stopped});
       if (!made.is_complete) return false;
@@ -145,9 +145,7 @@ class DatasetConversion {
   void CheckFiles(std::uint32_t scenario, const SequenceRecord& sequence) const {
     for (const auto& [name, hash] : sequence.files) {
       const fs::path file = fs::path(SequenceFolderOf(scenario)) / name;
-      if (HashFile(choices_.recording / file).hash == hash) continue;
-      throw InputError(ShownPath(choices_.recording / file) +
-                       ": must be the file that scenarios.jsonl names");
+      (void)ReadHashedFile(choices_.recording, {file.string(), hash, {}}, kScenariosFile);
     }
   }
 
