@@ -155,6 +155,8 @@ void Describe(Archive& a, ReceiverSpec& s) {
              "Relative standard deviation of the intensity from echo to echo.", Within(0, 1));
   a.Optional("channel_gain", s.channel_gain,
              "Relative standard deviation of the intensity from channel to channel.", Within(0, 1));
+  a.Optional("channel_gain_variation", s.channel_gain_variation,
+             "The same of a factor that changes with the range.", Within(0, 1));
   a.Optional("pointing_jitter_deg", s.pointing_jitter_deg,
              "Standard deviation of a beam's direction, in each of two directions.", Within(0, 1));
   a.Optional("clutter_gain", s.clutter_gain,

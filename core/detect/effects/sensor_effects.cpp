@@ -103,9 +103,8 @@ std::string GhostText(const DetectorSpec& spec) {
 
 // Intensity noise and channel gain.
 
-IntensityErrorParameters IntensityOf(const DetectorSpec& spec, double relative_sigma) {
-  const double log_variance = std::log1p(relative_sigma * relative_sigma);
-  return {.seed = spec.seed, .log_sigma = static_cast<float>(std::sqrt(log_variance))};
+float LogSigma(double relative_sigma) {
+  return static_cast<float>(std::sqrt(std::log1p(relative_sigma * relative_sigma)));
 }
 
 bool HasIntensityNoise(const DetectorSpec& spec) {
@@ -117,21 +116,31 @@ std::string IntensityNoiseText(const DetectorSpec& spec) {
 }
 
 SensorLoop IntensityNoiseLoop(const DetectorSpec& spec, const Kernels& kernels) {
-  return [parameters = IntensityOf(spec, spec.receiver.intensity_noise),
-          apply = kernels.intensity_noise](DetectTile& tile) { apply(tile, parameters); };
+  const IntensityErrorParameters parameters{.seed = spec.seed,
+                                            .log_sigma = LogSigma(spec.receiver.intensity_noise)};
+  return [=, apply = kernels.intensity_noise](DetectTile& tile) { apply(tile, parameters); };
 }
 
 bool HasChannelGain(const DetectorSpec& spec) {
-  return spec.receiver.channel_gain > 0.0;
+  return spec.receiver.channel_gain > 0.0 || spec.receiver.channel_gain_variation > 0.0;
 }
 
 std::string ChannelGainText(const DetectorSpec& spec) {
-  return "sigma " + NumberText(100.0 * spec.receiver.channel_gain) + " %";
+  const double by_range = spec.receiver.channel_gain_variation;
+  return "sigma " + NumberText(100.0 * spec.receiver.channel_gain) + " %" +
+         (by_range > 0.0 ? ", by range " + NumberText(100.0 * by_range) + " %" : "");
 }
 
 SensorLoop ChannelGainLoop(const DetectorSpec& spec, const Kernels& kernels) {
-  return [parameters = IntensityOf(spec, spec.receiver.channel_gain),
-          apply = kernels.channel_gain](DetectTile& tile) { apply(tile, parameters); };
+  const ReceiverSpec& receiver = spec.receiver;
+  const IntensityErrorParameters parameters{
+      .seed = spec.seed,
+      .log_sigma = LogSigma(receiver.channel_gain),
+      .varying_log_sigma = LogSigma(receiver.channel_gain_variation),
+      .log_range_ratio = static_cast<float>(kGainLogRange)};
+  const auto apply =
+      receiver.channel_gain_variation > 0.0 ? kernels.channel_gain_variation : kernels.channel_gain;
+  return [=](DetectTile& tile) { apply(tile, parameters); };
 }
 
 // Edge loss acts before detection, since it needs all echoes of a beam.

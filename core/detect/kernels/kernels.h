@@ -52,9 +52,11 @@ namespace railcast {
   KERNEL(climb_waves, ClimbWaves, void(const WaveClimbs&, WavePeak*))                            \
   KERNEL(sample_wave, SampleWave,                                                                \
          void(const EchoWave&, float first_m, float step_m, std::size_t num, float* samples))    \
-  KERNEL(intensity_noise, ScaleIntensity<false>,                                                 \
+  KERNEL(intensity_noise, ScaleIntensity<IntensityErrors::kOfEcho>,                              \
          void(DetectTile&, const struct IntensityErrorParameters&))                              \
-  KERNEL(channel_gain, ScaleIntensity<true>,                                                     \
+  KERNEL(channel_gain, ScaleIntensity<IntensityErrors::kOfChannel>,                              \
+         void(DetectTile&, const struct IntensityErrorParameters&))                              \
+  KERNEL(channel_gain_variation, ScaleIntensity<IntensityErrors::kOfChannelByRange>,             \
          void(DetectTile&, const struct IntensityErrorParameters&))                              \
   KERNEL(measure_exact, ApplyMeasurement<RangeErrors::kNone>,                                    \
          void(DetectTile&, const struct MeasurementParameters&))                                 \

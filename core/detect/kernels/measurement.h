@@ -25,9 +25,14 @@ struct MeasurementParameters {
   const float* channel_bias_m{};  ///< By channel.
 };
 
+/// What has a factor of its own by which its intensity is measured wrong.
+enum class IntensityErrors { kOfEcho, kOfChannel, kOfChannelByRange };
+
 struct IntensityErrorParameters {
   std::uint64_t seed{};
-  float log_sigma{};  ///< sqrt(ln(1 + s^2)) for the relative standard deviation s.
+  float log_sigma{};          ///< sqrt(ln(1 + s^2)) for the relative standard deviation s.
+  float varying_log_sigma{};  ///< The same; only for kOfChannelByRange.
+  float log_range_ratio{};    ///< kGainLogRange, likewise.
 };
 
 }  // namespace railcast
@@ -53,18 +58,38 @@ inline void ApplyHit(DetectTile& tile, float range_min_m) {
 ///
 ///   intensity x exp(g n - g^2 / 2),   g^2 = ln(1 + s^2),   n ~ N(0, 1)
 ///
-/// with an n for each echo, or for each channel (kIsOfChannel), the same in every frame. Power, and
-/// with it detection and range noise, is what arrives. Log-normal, so that no intensity is < 0.
-template <bool kIsOfChannel>
+/// with an n for each echo, or for each channel, the same in every frame. A channel may have
+/// another factor by range (kOfChannelByRange), of a deviation h. Its n is a wave over ln(R), R in
+/// metres:
+///
+///   n(R) = b cos(d x) + c sin(d x),   x = ln(R) / l,   b, c, d ~ N(0, 1)
+///
+/// (l: log_range_ratio). Over channels, it is normal at each range, and that at ranges x apart has
+/// the correlation E cos(d x) = exp(-x^2 / 2). Power, and with it detection and range noise, is
+/// what arrives. Log-normal, so that no intensity is < 0.
+template <IntensityErrors kErrors>
 inline void ScaleIntensity(DetectTile& tile, const IntensityErrorParameters& parameters) {
+  constexpr bool kIsOfChannel = kErrors != IntensityErrors::kOfEcho;
   const LaneKey key{parameters.seed,
                     kIsOfChannel ? RandomUse::kChannelGain : RandomUse::kIntensityNoise,
                     kIsOfChannel ? 0U : tile.frame};
   const float g = parameters.log_sigma;
+  const float h = parameters.varying_log_sigma;
   for (std::size_t i = 0; i < tile.num_rays; ++i) {
     const Words words = kIsOfChannel ? LaneWords(key, tile.channel[i], 0)
                                      : LaneWords(key, tile.firing[i], tile.echo[i]);
-    tile.intensity[i] *= Exp(g * LaneNormals(words).a - 0.5F * g * g);
+    const Normals normals = LaneNormals(words);
+    float exponent = g * normals.a - 0.5F * g * g;
+    if constexpr (kErrors == IntensityErrors::kOfChannelByRange) {
+      const float turns_per_log = 0.15915494F / parameters.log_range_ratio;  // 1 / (2 pi)
+      const float turns = normals.d * (turns_per_log * Log(tile.true_range_m[i]));
+      constexpr float kRounder = 12582912.0F;  // As in Exp: rounds to the nearest integer.
+      float cosine{};
+      float sine{};
+      CosSinTurn(turns - ((turns + kRounder) - kRounder), cosine, sine);
+      exponent += h * (normals.b * cosine + normals.c * sine) - 0.5F * h * h;
+    }
+    tile.intensity[i] *= Exp(exponent);
   }
 }
 

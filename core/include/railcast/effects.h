@@ -175,6 +175,11 @@ inline constexpr auto kEnumNames<ReturnMode> =
                                          {ReturnMode::kDual, "dual"},
                                          {ReturnMode::kTriple, "triple"}});
 
+/// Factors that a channel has by range change over this much of ln(range): those of one channel at
+/// two ranges D apart in it have a correlation of exp(-(D / kGainLogRange)^2 / 2) over channels.
+/// Measured (docs/results/validation.md).
+inline constexpr double kGainLogRange = 0.45;
+
 /// The receiver: sensitivity, return mode and measurement errors.
 struct ReceiverSpec {
   /// The data sheet's detection range on a Lambertian target of 10 % at normal incidence.
@@ -189,8 +194,9 @@ struct ReceiverSpec {
   /// Standard deviation of the factor by which the intensity of an echo is measured wrong, whose
   /// mean is 1. It differs from echo to echo.
   double intensity_noise = 0.0;
-  double channel_gain = 0.0;          ///< The same of a factor that each channel has for good.
-  double pointing_jitter_deg = 0.01;  ///< Standard deviation in each of two directions.
+  double channel_gain = 0.0;  ///< The same of a factor that each channel has for good, ...
+  double channel_gain_variation = 0.0;  ///< ... and of one that each has by range (kGainLogRange).
+  double pointing_jitter_deg = 0.01;    ///< Standard deviation in each of two directions.
   double clutter_gain = 0.2;  ///< Factor for the mean number of raindrop and snowflake echoes.
   /// Range at which the receiver has a quarter of its gain for the echoes of fog; it falls with the
   /// fourth power of the range below. Absent: NearRange_m() (core/detect/clutter/fog_profile.h).

@@ -59,6 +59,7 @@ ScenarioSpec UnusualScenario(const std::string& mesh_file) {
        0.02,
        0.05,
        0.06,
+       0.07,
        0.03,
        0.4,
        3.0,

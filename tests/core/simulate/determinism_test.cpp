@@ -181,6 +181,7 @@ SimulatorSpec EveryEffect() {
   detector.receiver.channel_bias_sigma_m = 0.02;
   detector.receiver.intensity_noise = 0.1;
   detector.receiver.channel_gain = 0.15;
+  detector.receiver.channel_gain_variation = 0.2;
   detector.receiver.edge_loss = 0.5;
   detector.receiver.saturation_power_ratio = 100.0;
   detector.receiver.ghost_reflectance = 0.1;

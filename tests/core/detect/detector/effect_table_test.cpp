@@ -126,6 +126,8 @@ TEST(EffectTable, GivesNoEffectTheCauseOfAnother) {
               UnorderedElementsAre("intensity_noise"));
   EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.channel_gain = 0.1; }),
               UnorderedElementsAre("channel_gain"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.channel_gain_variation = 0.1; }),
+              UnorderedElementsAre("channel_gain"));
   // It needs a beam that meets two surfaces.
   EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.edge_loss = 0.1; }),
               UnorderedElementsAre());

@@ -132,6 +132,7 @@ std::vector<float> RunPhysics(const Kernels& kernels, RayTile& rays, DetectTile&
   kernels.saturation(tile, {20.0F, 0.32F});
   kernels.intensity_noise(tile, {7, 0.1F});
   kernels.channel_gain(tile, {7, 0.2F});
+  kernels.channel_gain_variation(tile, {7, 0.1F, 0.2F, 0.45F});
   kernels.hit(tile, 0.5F);
   const std::vector<float> fog_ratio(20, 1.0F);
   const auto peaks = std::make_unique<FogPeaks>();

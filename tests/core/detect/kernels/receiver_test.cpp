@@ -160,9 +160,10 @@ TEST(ChannelBias, IsNormalOverTheChannels) {
 /// The factors by which intensities of 0.5 are measured wrong, by firing.
 std::vector<double> FactorsOfIntensity(const DetectorSpec& spec,
                                        std::uint32_t frame,
-                                       std::uint32_t firings_per_channel) {
+                                       std::uint32_t firings_per_channel,
+                                       double range_m = 16.0) {
   FacingBeams beams{.frame = frame};
-  beams.range_m = [](std::uint32_t) { return 16.0; };
+  beams.range_m = [=](std::uint32_t) { return range_m; };
   beams.channel = [=](std::uint32_t firing) { return firing / firings_per_channel; };
   beams.num_channels = beams.num_firings / firings_per_channel;
   std::vector<double> factors;
@@ -221,6 +222,41 @@ TEST(ChannelGain, IsTheSameInEveryFrameAndAnotherForEachChannelAndSensor) {
   for (std::size_t i = 0; i < of_few.size(); ++i) EXPECT_EQ(of_few[i], factors[i / 1024]);
   spec.seed = 2;
   EXPECT_NE(FactorsOfIntensity(spec, 0, 1), factors);
+}
+
+TEST(ChannelGain, ByRangeHasTheStatedSpreadAtEachRange) {
+  DetectorSpec spec{.seed = 1, .effects = {.channel_gain = true}};
+  spec.receiver.channel_gain_variation = 0.18;
+  for (const double range_m : {0.7, 16.0, 190.0}) {
+    ExpectFactors(FactorsOfIntensity(spec, 0, 1, range_m), 0.18);
+  }
+  EXPECT_EQ(FactorsOfIntensity(spec, 77, 1), FactorsOfIntensity(spec, 0, 1));
+  spec.receiver.channel_gain = 0.14;
+  const double product = (1.0 + 0.14 * 0.14) * (1.0 + 0.18 * 0.18);  // They are independent.
+  ExpectFactors(FactorsOfIntensity(spec, 0, 1), std::sqrt(product - 1.0));
+}
+
+TEST(ChannelGain, OfOneChannelAtTwoRangesIsAlikeByTheirRatio) {
+  DetectorSpec spec{.seed = 1, .effects = {.channel_gain = true}};
+  spec.receiver.channel_gain = 0.1;
+  spec.receiver.channel_gain_variation = 0.2;
+  const double g2 = std::log1p(0.1 * 0.1);
+  const double h2 = std::log1p(0.2 * 0.2);
+  const std::vector<double> near = FactorsOfIntensity(spec, 0, 1, 10.0);
+  for (const double ratio : {1.0, 1.2, 1.5, 2.0, 8.0}) {
+    const std::vector<double> far = FactorsOfIntensity(spec, 0, 1, 10.0 * ratio);
+    const auto num = static_cast<double>(near.size());
+    double covariance = 0.0;  // Of logarithms, whose mean is -(g^2 + h^2) / 2.
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      const double mean = -0.5 * (g2 + h2);
+      covariance += (std::log(near[i]) - mean) * (std::log(far[i]) - mean) / num;
+    }
+    const double x = std::log(ratio) / kGainLogRange;
+    // Products of n at two ranges have fourth moments of at most 3.
+    EXPECT_NEAR(covariance, g2 + h2 * std::exp(-0.5 * x * x),
+                4.0 * (g2 + h2) * std::sqrt(3.0 / num))
+        << ratio;
+  }
 }
 
 /// The share of beams that are lost which meet surfaces of these shares, `jump_m` apart.
