@@ -212,14 +212,14 @@ PANDAR64 = [
     {"noise_sigma0_m": 0.013, "noise_sigma1": 0.0, "dropout_probability": 0.00005,
      "dark_dropout_probability": 0.004, "dark_dropout_intensity": 0.024},
     {"range_noise_floor_m": 0.009, "channel_bias_sigma_m": 0.009, "pointing_jitter_deg": 0.0015,
-     "dead_time_ns": 5.6, "intensity_noise": 0.06, "channel_gain": 0.1},
+     "dead_time_ns": 5.6, "intensity_noise": 0.06, "channel_gain_variation": 0.14},
 ]
 VLS128 = [
     {"noise_sigma0_m": 0.014, "noise_sigma1": 0.0, "dropout_probability": 0.00035,
      "dark_dropout_probability": 0.014, "dark_dropout_intensity": 0.007},
     {"signal": "energy", "range_noise_floor_m": 0.0075, "range_noise_scale_m": 0.13,
      "channel_bias_sigma_m": 0.01, "pointing_jitter_deg": 0.0015,
-     "intensity_noise": 0.08, "channel_gain": 0.14},
+     "intensity_noise": 0.08, "channel_gain_variation": 0.19},
 ]
 XT32 = [
     {"noise_sigma0_m": 0.004, "noise_sigma1": 0.0, "dropout_probability": 0.00005,
@@ -231,7 +231,8 @@ QT128 = [
     {"noise_sigma0_m": 0.011, "noise_sigma1": 0.0, "dark_dropout_probability": 0.003,
      "dark_dropout_intensity": 0.04},
     {"range_noise_floor_m": 0.0077, "channel_bias_sigma_m": 0.0075, "pointing_jitter_deg": 0.0015,
-     "dead_time_ns": 2.6, "intensity_noise": 0.06, "channel_gain": 0.06},
+     "dead_time_ns": 2.6, "intensity_noise": 0.06, "channel_gain": 0.036,
+     "channel_gain_variation": 0.039},
 ]
 
 
@@ -312,7 +313,7 @@ def main():
                  [earliest_us - before_us for before_us in PANDAR40P_BEFORE_END_US],
                  55.5555555556, 1800,
                  detection(0.3, 200.0, 200.0, 0.01, [3.0, 1.5],
-                           receiver={"dead_time_ns": 5.4, "intensity_noise": 0.06, "channel_gain": 0.14}))
+                           receiver={"dead_time_ns": 5.4, "intensity_noise": 0.06, "channel_gain_variation": 0.19}))
     write_sensor(out / "qt64.json", "QT64", hesai_lasers(hesai / "PandarQT64.csv"),
                  [time_us - QT64_SINCE_BEGIN_US[0] for time_us in QT64_SINCE_BEGIN_US],
                  166.6666666667, 600,

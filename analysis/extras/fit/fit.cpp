@@ -289,8 +289,12 @@ void AddIntensities(const ReceiverFigures& figures, FitResult& result) {
   add("lidar/receiver/intensity_noise", "Intensity noise", noise,
       figures.has_moved ? "the sensor moved"
                         : "fewer than two turns, or too few smooth surfaces of 0.12 to 0.25");
-  add("lidar/receiver/channel_gain", "Gain of single channels", figures.channel_gain,
-      "too few channels with smooth surfaces");
+  const std::string too_few_channels = "too few channels with smooth surfaces";
+  add("lidar/receiver/channel_gain", "Gain of single channels",
+      figures.gain_by_range.low > 0.0 ? figures.gain_at_all_ranges : figures.channel_gain,
+      too_few_channels);
+  add("lidar/receiver/channel_gain_variation", "Gain of single channels by range",
+      figures.gain_by_range, too_few_channels);
 }
 
 FitResult FitModel(RecordedTrials& trials, const FitSettings& settings) {

@@ -30,6 +30,7 @@ double* Find(ScenarioSpec& scenario, const std::string& place) {
       {"lidar/receiver/pointing_jitter_deg", &receiver.pointing_jitter_deg},
       {"lidar/receiver/intensity_noise", &receiver.intensity_noise},
       {"lidar/receiver/channel_gain", &receiver.channel_gain},
+      {"lidar/receiver/channel_gain_variation", &receiver.channel_gain_variation},
       {"weather/rain_dropout_per_m", &scenario.weather.rain_dropout_per_m}};
   for (const auto& [name, value] : places) {
     if (place == name) return value;

@@ -99,7 +99,8 @@ ReplayVerdict VerdictOf(const Figure& before, const Figure& after) {
 /// No figure of ranges or holes tells of it.
 bool IsOfIntensities(const FittedParameter& parameter) {
   return parameter.place == "lidar/receiver/intensity_noise" ||
-         parameter.place == "lidar/receiver/channel_gain";
+         parameter.place == "lidar/receiver/channel_gain" ||
+         parameter.place == "lidar/receiver/channel_gain_variation";
 }
 
 /// Indices of parameters that have a value to be judged, those in one place that mean nothing

@@ -40,6 +40,11 @@ struct ReceiverFigures {
   /// 30 deg of the medians of log intensity less the neighbouring channels' on the same surface,
   /// less what these' own gains add. Jackknife over channels.
   Estimate channel_gain;
+  /// The same in parts: what a channel has at all ranges, and what it has by range
+  /// (kGainLogRange). By least squares in c^2 + h^2 exp(-x^2 / 2), from the products of a channel's
+  /// medians in two sectors of 10 deg with one or more between, x apart in ln(range), on surfaces
+  /// that the channel and its neighbours see at one range.
+  Estimate gain_at_all_ranges, gain_by_range;
   std::array<TwoDeviations, kTextureLags_m.size()> texture;
   JumpLosses jumps;
   Estimate holes;  ///< Holes::Share().
@@ -47,6 +52,9 @@ struct ReceiverFigures {
 
 /// With its interval.
 [[nodiscard]] Estimate EstimateOf(const JackknifedFigure& figure);
+
+/// The three figures of gains.
+void FindChannelGains(const std::vector<SmoothTurn>& turns, ReceiverFigures& figures);
 
 [[nodiscard]] JumpLosses FindJumpLosses(const GridTurns& turns);
 

@@ -29,6 +29,8 @@ Section MakeReceiverSection(const ReceiverFigures& figures) {
     add("range from turn to turn", "mm", kMm, figures.range_noise_m);
   }
   add_one("gain of single channels", "%", kPercent, figures.channel_gain);
+  add_one("of these, at all ranges", "%", kPercent, figures.gain_at_all_ranges);
+  add_one("of these, by range", "%", kPercent, figures.gain_by_range);
   for (std::size_t lag = 0; lag < figures.texture.size(); ++lag) {
     add("texture at " + ShortText(kTextureLags_m.at(lag)) + " m", "", 1.0, figures.texture.at(lag));
   }

@@ -25,9 +25,10 @@ struct Truth {
   double noise{}, gain{}, texture{}, range_noise_m{};
   double base{}, near_last_m{};  ///< Firings lost at edges; none more with the near side first.
   double speed_m{};              ///< Ahead, a turn.
+  double gain_by_range{};
+  std::size_t rows = 40;
 };
 
-constexpr std::size_t kRows = 40;
 constexpr std::size_t kColumns = 1800;
 constexpr std::size_t kPanel = 30;  // Columns.
 
@@ -38,21 +39,32 @@ std::vector<RecordedFrame> MakeTurns(const Truth& truth, std::size_t num_turns =
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> even;
-  std::vector<double> gain(kRows), texture(kRows * kColumns);
+  std::vector<double> gain(truth.rows), texture(truth.rows * kColumns);
   for (double& value : gain) value = truth.gain * normal(random);
   for (double& value : texture) value = truth.texture * normal(random);
+  std::mt19937 random_by_range(7);
+  std::vector<std::array<double, 3>> waves(truth.rows);  // As core/detect/kernels/measurement.h.
+  for (auto& wave : waves) {
+    for (double& number : wave) number = normal(random_by_range);
+  }
+  const auto gain_by_range = [&](std::size_t row, double range_m) {
+    const auto& [b, c, d] = waves[row];
+    const double turn_rad = d * std::log(range_m) / kGainLogRange;
+    return truth.gain_by_range * (b * std::cos(turn_rad) + c * std::sin(turn_rad));
+  };
   std::vector<RecordedFrame> turns(num_turns);
   for (std::size_t turn = 0; turn < num_turns; ++turn) {
     Frame& frame = turns[turn].frame;
-    frame.Resize(kRows, kColumns, 1);
+    frame.Resize(static_cast<std::uint32_t>(truth.rows), kColumns, 1);
     turns[turn].is_grid = true;
     turns[turn].fields = {"x", "y", "z", "intensity", "range_m", "ring", "column"};
     for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
       const std::size_t row = slot / kColumns;
       const std::size_t column = slot % kColumns;
       const double azimuth_rad = -kStep_rad * static_cast<double>(column);
-      const double elevation_rad = RadFromDeg(0.5 * static_cast<double>(row) - 10.0);
-      const double near_m = row < kRows / 2 ? 3.0 : 6.0;
+      const double elevation_rad =
+          RadFromDeg(20.0 * static_cast<double>(row) / static_cast<double>(truth.rows) - 10.0);
+      const double near_m = row < truth.rows / 2 ? 3.0 : 6.0;
       const bool is_near = column / kPanel % 2 == 1;
       const bool is_before = column % kPanel == kPanel - 1;  // The last firing before an edge.
       const double lost =
@@ -67,7 +79,8 @@ std::vector<RecordedFrame> MakeTurns(const Truth& truth, std::size_t num_turns =
           frame.range_m[slot] * static_cast<float>(std::cos(elevation_rad) * std::sin(azimuth_rad));
       frame.z[slot] = frame.range_m[slot] * static_cast<float>(std::sin(elevation_rad));
       frame.intensity[slot] = static_cast<float>(
-          0.18 * std::exp(gain[row] + texture[slot] + truth.noise * normal(random)));
+          0.18 * std::exp(gain[row] + gain_by_range(row, is_near ? near_m : 10.0) + texture[slot] +
+                          truth.noise * normal(random)));
     }
   }
   return turns;
@@ -101,6 +114,27 @@ TEST(ReceiverFigures, AreThoseOfAMadeRecording) {
                                    figures.jumps.aside_m, figures.channel_gain}) {
     EXPECT_LT(estimate.low, estimate.value);
     EXPECT_GT(estimate.high, estimate.value);
+  }
+}
+
+// At four standard errors of the variance of 198 channels.
+TEST(ReceiverFigures, TellGainsByRangeFromThoseAtAllRanges) {
+  constexpr std::size_t kChannels = 198;
+  struct Parts {
+    double at_all_ranges, by_range;
+  };
+  for (const Parts parts : {Parts{0.2, 0.0}, Parts{0.0, 0.2}, Parts{0.12, 0.18}}) {
+    const ReceiverFigures figures = FindReceiverFigures(MakeTurns({.noise = 0.05,
+                                                                   .gain = parts.at_all_ranges,
+                                                                   .gain_by_range = parts.by_range,
+                                                                   .rows = kChannels + 2},
+                                                                  1));
+    const double all = std::pow(parts.at_all_ranges, 2) + std::pow(parts.by_range, 2);
+    const double most_off = 4.0 * all * std::sqrt(2.0 / static_cast<double>(kChannels));
+    const auto variance = [](const Estimate& part) { return part.value * std::abs(part.value); };
+    EXPECT_NEAR(variance(figures.gain_at_all_ranges), std::pow(parts.at_all_ranges, 2), most_off);
+    EXPECT_NEAR(variance(figures.gain_by_range), std::pow(parts.by_range, 2), most_off);
+    EXPECT_EQ(figures.gain_by_range.low > 0.0, parts.by_range > 0.0);
   }
 }
 
@@ -160,6 +194,18 @@ std::string RowOf(const std::string& sensor, const ReceiverFigures& figures) {
          " |";
 }
 
+std::string RowOfGains(const std::string& sensor, const ReceiverFigures& figures) {
+  std::string row = "| " + sensor;
+  for (const Estimate& part : {figures.gain_at_all_ranges, figures.gain_by_range}) {
+    row += " | " + Text(part, 100.0);
+    if (part.is_enough()) {
+      row +=
+          " [" + Text({part.low, 0, 0, 1}, 100.0) + ", " + Text({part.high, 0, 0, 1}, 100.0) + "]";
+    }
+  }
+  return row + " | " + std::to_string(figures.gain_by_range.num) + " |";
+}
+
 // A preset has what was measured to the interval, and nothing where this holds 0.
 void ExpectMeasured(double preset, const Estimate& measured) {
   if (measured.low <= 0.0) {
@@ -198,13 +244,17 @@ TEST(RealReceivers, ShowWhatThePageSays) {
     ++num;
     SCOPED_TRACE(sensor);
     const ReceiverFigures figures = FindReceiverFigures(WholeTurns(*OpenRecording(path)));
-    const std::string row = RowOf(sensor, figures);
-    std::puts(row.c_str());
-    EXPECT_THAT(page, testing::HasSubstr(row));
+    for (const std::string& row : {RowOf(sensor, figures), RowOfGains(sensor, figures)}) {
+      std::puts(row.c_str());
+      EXPECT_THAT(page, testing::HasSubstr(row));
+    }
     if (preset.empty()) continue;
     const ReceiverSpec receiver = PresetScenario(preset).lidar.receiver;
     ExpectMeasured(receiver.intensity_noise, figures.intensity_noise.robust);
-    ExpectMeasured(receiver.channel_gain, figures.channel_gain);
+    ExpectMeasured(receiver.channel_gain_variation, figures.gain_by_range);
+    ExpectMeasured(receiver.channel_gain, receiver.channel_gain_variation > 0.0
+                                              ? figures.gain_at_all_ranges
+                                              : figures.channel_gain);
   }
   ScenarioSpec scenario = PresetScenario("vls128");
   for (Material& material : scenario.materials) material.reflectivity = 0.45;

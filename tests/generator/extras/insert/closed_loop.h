@@ -29,7 +29,7 @@ struct LoopSensor {
   LoopSensor sensor{ReadMinimalWith(name), {}};
   sensor.scenario.fidelity = fidelity;
   ReceiverSpec& receiver = sensor.scenario.lidar.receiver;
-  receiver.intensity_noise = receiver.channel_gain = 0.0;
+  receiver.intensity_noise = receiver.channel_gain = receiver.channel_gain_variation = 0.0;
   sensor.scenario.lidar.scan = CutSector(sensor.scenario.lidar.scan, sector);
   sensor.pattern = BuildScanPattern(sensor.scenario.lidar.scan);
   return sensor;

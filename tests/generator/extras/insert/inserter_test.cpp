@@ -375,7 +375,7 @@ TEST(Inserter, MakesNoNoiseOfIntensitiesInRecordedReturns) {
   const LoopSensor exact = MakeLoopSensor("vlp16", Fidelity::kFootprint, kLoopSector);
   LoopSensor noisy = exact;
   ReceiverSpec& receiver = noisy.scenario.lidar.receiver;
-  receiver.intensity_noise = receiver.channel_gain = 0.5;
+  receiver.intensity_noise = receiver.channel_gain = receiver.channel_gain_variation = 0.5;
   const RecordedFirings recorded =
       RecordedOf(ScanLoop(exact, MakeLoopScene(exact.scenario)), exact.pattern);
   const auto insert = [&](const ScenarioSpec& scenario) {

@@ -46,7 +46,7 @@ LoopSensor StandingSensor(double noise, double texture) {
   scenario.fidelity = Fidelity::kSurface;
   scenario.lidar.mount.position_m = {0.0, 0.0, 4.0};
   scenario.lidar.receiver.intensity_noise = noise;
-  scenario.lidar.receiver.channel_gain = 0.0;
+  scenario.lidar.receiver.channel_gain = scenario.lidar.receiver.channel_gain_variation = 0.0;
   for (Material& material : scenario.materials) {
     material.reflectivity = 0.22;
     material.texture = texture;
