@@ -278,15 +278,15 @@ void AddIntensities(const ReceiverFigures& figures, FitResult& result) {
     } else if (estimate.low <= 0.0) {
       parameter.estimate = NotEnough(estimate.num);
       parameter.remark = "not identified: its interval holds 0";
+    } else {  // The key is the relative deviation of what is log-normal (MeasurementParameters).
+      Estimate& of = parameter.estimate;
+      for (double* const end : {&of.value, &of.low, &of.high}) {
+        *end = std::sqrt(std::expm1(*end * *end));
+      }
     }
     result.parameters.push_back(parameter);
   };
-  // The key is the relative deviation of what is log-normal (MeasurementParameters).
-  Estimate noise = figures.intensity_noise.robust;
-  for (double* const end : {&noise.value, &noise.low, &noise.high}) {
-    *end = std::sqrt(std::expm1(*end * *end));
-  }
-  add("lidar/receiver/intensity_noise", "Intensity noise", noise,
+  add("lidar/receiver/intensity_noise", "Intensity noise", figures.intensity_noise.robust,
       figures.has_moved ? "the sensor moved"
                         : "fewer than two turns, or too few smooth surfaces of 0.12 to 0.25");
   const std::string too_few_channels = "too few channels with smooth surfaces";

@@ -168,6 +168,14 @@ std::string FittedJson(const ScenarioSpec& fitted, const FitResult& result) {
 }
 
 ScenarioSpec FittedScenario(ScenarioSpec scenario, const FitResult& result) {
+  // Parts of one gain: what is not told of one is in the other, or is none.
+  const auto is_gain = [](const FittedParameter& parameter) {
+    return parameter.is_written() && parameter.place.starts_with("lidar/receiver/channel_gain");
+  };
+  if (std::ranges::any_of(result.parameters, is_gain)) {
+    ReceiverSpec& receiver = scenario.lidar.receiver;
+    receiver.channel_gain = receiver.channel_gain_variation = 0.0;
+  }
   for (const FittedParameter& parameter : result.parameters) {
     if (!parameter.is_written()) continue;
     *Find(scenario, parameter.place) = RoundedParameter(parameter.estimate.value);

@@ -151,6 +151,7 @@ TEST(Fit, FindsNoiseAndGainOfTheIntensities) {
   AddIntensities(figures, result);
   ScenarioSpec plain = scenario;
   plain.lidar.receiver.intensity_noise = plain.lidar.receiver.channel_gain = 0.0;
+  plain.lidar.receiver.channel_gain_variation = 0.19;
   FitProof({turns.front()}, "yard").Judge(plain, result);
   ASSERT_EQ(result.parameters.size(), 3U);
   EXPECT_FALSE(result.parameters.back().is_written());
@@ -164,6 +165,8 @@ TEST(Fit, FindsNoiseAndGainOfTheIntensities) {
     EXPECT_NEAR(ScenarioValue(FittedScenario(plain, result), parameter.place), estimate.value,
                 1e-5);
   }
+  // Else gains would be there twice.
+  EXPECT_EQ(FittedScenario(plain, result).lidar.receiver.channel_gain_variation, 0.0);
 }
 
 TEST(Fit, GivesNoValueForIntensitiesThatAreNotTold) {
