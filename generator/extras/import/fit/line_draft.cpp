@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "generator/extras/import/fit/plan_geometry.h"
+
 namespace railcast {
 
 LineDraft::LineDraft(std::span<const Eigen::Vector2d> points_m, const LinePrior& prior)

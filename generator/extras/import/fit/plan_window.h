@@ -1,45 +1,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/QR>
 #include <cstddef>
+#include <initializer_list>
+#include <utility>
 #include <vector>
 
 #include "generator/extras/import/fit/plan_model.h"
 
 namespace railcast {
-
-/// Where a point's foot lies on a course.
-struct Foot {
-  double s_m{};       ///< Chainage, within the course.
-  double offset_m{};  ///< Of the point, left positive.
-  double beyond_m{};  ///< How far the point lies behind (negative: before) the end of the course.
-};
-
-/// The foot of a point near a guess.
-[[nodiscard]] Foot FootOn(const PlanCourse& course,
-                          double length_m,
-                          const Eigen::Vector2d& point_m,
-                          double guess_m);
-
-[[nodiscard]] inline double CrossProduct(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-/// Curvature of the circle through three points, left positive.
-[[nodiscard]] inline double CircleCurvature_per_m(const Eigen::Vector2d& a,
-                                                  const Eigen::Vector2d& b,
-                                                  const Eigen::Vector2d& c) {
-  const double product = (b - a).norm() * (c - a).norm() * (c - b).norm();
-  return product > 0.0 ? 2.0 * CrossProduct(b - a, c - a) / product : 0.0;
-}
-
-/// The clothoid that a line for this speed usually has between two curvatures: as long as the ramp
-/// of the cant at a slope of 1 : 10 v (EN 13803-1), of which 60 % of the balancing cant is built,
-/// and at least 15 m and 0.2 m for each km/h.
-[[nodiscard]] double UsualClothoid_m(double speed_kmph, double from_per_m, double to_per_m);
-
-/// The sharpest curvature at a speed: a cant of 150 mm and a deficiency of 130 mm (EN 13803-1).
-[[nodiscard]] double SharpestCurvature_per_m(double speed_kmph);
 
 /// A part of a plan that is fitted to points by itself. Its beginning and its end stay where they
 /// are, except at the ends of the line.
@@ -64,6 +34,67 @@ struct PlanWindow {
   /// Real lines have the former two where there is no room.
   /// @returns The sum of squares that is left.
   double Fit();
+};
+
+/// What PlanWindow::Fit makes small, in the form of Eigen's Levenberg-Marquardt solver: residuals
+/// as a function of parameters.
+///
+/// Parameters are the pose of the window's beginning if it is free, the logarithms of all lengths
+/// in their order along the line (which keeps these positive), and the free curvatures. Residuals
+/// are the offsets of the points, then those of lengths and curvatures, then those of the ends.
+class WindowResiduals {
+ public:
+  using Scalar = double;
+  using InputType = Eigen::VectorXd;
+  using ValueType = Eigen::VectorXd;
+  using JacobianType = Eigen::MatrixXd;
+  using QRSolver = Eigen::ColPivHouseholderQR<JacobianType>;
+  enum { InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic };
+
+  explicit WindowResiduals(const PlanWindow& window);
+
+  /// Of the window's own plan.
+  [[nodiscard]] Eigen::VectorXd Parameters() const;
+  [[nodiscard]] PlanModel PlanOf(const Eigen::VectorXd& parameters) const;
+
+  [[nodiscard]] const std::vector<double>& feet_m() const { return feet_m_; }
+  [[nodiscard]] std::size_t num_feet() const { return num_feet_; }
+
+  [[nodiscard]] Eigen::Index inputs() const { return num_inputs_; }
+  [[nodiscard]] Eigen::Index values() const;
+  int operator()(const Eigen::VectorXd& parameters, Eigen::VectorXd& residuals) const;
+  /// The derivatives of all residuals in closed form, at the feet of the last evaluation: the
+  /// solver makes that at the same parameters.
+  ///
+  /// A parameter bends or lengthens one element, or bends a plateau with the clothoids beside it.
+  /// What lies behind moves as a rigid body, and what lies before it stays. Feet move along with
+  /// their elements; that they slide on the track does not change an offset in the first order.
+  int df(const Eigen::VectorXd& parameters, Eigen::MatrixXd& jacobian) const;
+
+ private:
+  /// Derivatives by the lengths in metres and curvatures in 1/m that parameters stand for.
+  using Slopes = std::initializer_list<std::pair<Eigen::Index, double>>;
+  /// Calls `add(residual, slopes)` for what lengths and curvatures cost by themselves.
+  template <typename Add>
+  void VisitPriors(const PlanModel& plan, const Add& add) const;
+  /// Derivative of what each parameter stands for, in metres, radians and 1/m, by the parameter; 0
+  /// beyond what the solver may try.
+  [[nodiscard]] Eigen::VectorXd Rates(const Eigen::VectorXd& parameters) const;
+  /// Parameter of the length of a plateau's constant part; the clothoid behind it has the next one.
+  [[nodiscard]] Eigen::Index LengthOf(std::size_t plateau) const {
+    return first_length_ + 2 * static_cast<Eigen::Index>(plateau);
+  }
+  [[nodiscard]] Eigen::Index num_points() const {
+    return static_cast<Eigen::Index>(window_->points_m.size());
+  }
+
+  const PlanWindow* window_;
+  double longest_m_;                      ///< That the solver may try for an element.
+  Eigen::Index first_length_;             ///< Parameter of the first element's length.
+  std::vector<Eigen::Index> curvatures_;  ///< Parameter of each plateau's curvature; -1: fixed.
+  Eigen::Index num_inputs_;
+  mutable std::vector<double> feet_m_;  ///< Of the last evaluation: guesses for the next one.
+  mutable std::size_t num_feet_ = 0;    ///< Sought so far.
 };
 
 }  // namespace railcast

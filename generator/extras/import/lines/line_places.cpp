@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "generator/extras/import/fit/plan_window.h"
+#include "generator/extras/import/fit/plan_geometry.h"
 
 namespace railcast {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "generator/extras/import/fit/plan_window.h"
+#include "generator/extras/import/fit/plan_geometry.h"
 
 namespace railcast {
 namespace {
