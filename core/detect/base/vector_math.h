@@ -62,6 +62,13 @@ inline constexpr float kLn2Lower = -2.12194440e-4F;
   return fraction * std::bit_cast<float>(exponent);
 }
 
+/// Turns less whole ones, in [-1/2, 1/2], of less than 2^22 turns.
+[[nodiscard]] inline float WithinHalfATurn(float turns) {
+  // Adding and subtracting 1.5 * 2^23 rounds to the nearest integer.
+  constexpr float kRounder = 12582912.0F;
+  return turns - ((turns + kRounder) - kRounder);
+}
+
 /// cos(2 pi u) and sin(2 pi u) for u in [-1/2, 1); error <= 2e-7.
 inline void CosSinTurn(float u, float& cosine, float& sine) {
   // q is the nearest quarter turn, x the rest in [-1/8, 1/8] turn, in radians.

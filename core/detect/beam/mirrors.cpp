@@ -152,14 +152,13 @@ PuddleWaves Puddles::WavesAt(const Transform& world_from_window) const {
 
 bool IsUnderWater(const PuddleWaves& waves, const float (&place_m)[3]) {
   constexpr float kAmplitude = 0.35355339F;  // sqrt(2 / 16)
-  constexpr float kRounder = 12582912.0F;    // Adding and subtracting it rounds to an integer.
   float sum = 0.0F;
   for (std::size_t i = 0; i < kNumPuddleWaves; ++i) {
     const float turns = waves.x[i] * place_m[0] + waves.y[i] * place_m[1] +
                         waves.z[i] * place_m[2] + waves.phase[i];
     float cosine{};
     float sine{};
-    baseline::CosSinTurn(turns - ((turns + kRounder) - kRounder), cosine, sine);
+    baseline::CosSinTurn(baseline::WithinHalfATurn(turns), cosine, sine);
     sum += kAmplitude * cosine;
   }
   return sum > waves.least;

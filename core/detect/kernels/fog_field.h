@@ -73,10 +73,8 @@ inline void FillFogField(const FogBeams& beams, const FogEchoParameters& p, FogF
     for (std::size_t i = 0; i < kFogPackets; ++i) {
       const float step = p.gate_m * (kx * x[i] + ky * y[i] + kz * z[i]);
       const float start = kx * start_x[i] + ky * start_y[i] + kz * start_z[i] + phase;
-      // Adding and subtracting 1.5 * 2^23 rounds to whole turns; the rest is in [-1/2, 1/2].
-      constexpr float kRounder = 12582912.0F;
-      CosSinTurn(start - ((start + kRounder) - kRounder), c[i], s[i]);
-      CosSinTurn(step - ((step + kRounder) - kRounder), step_c[i], step_s[i]);
+      CosSinTurn(WithinHalfATurn(start), c[i], s[i]);
+      CosSinTurn(WithinHalfATurn(step), step_c[i], step_s[i]);
       c[i] *= amplitude;
       s[i] *= amplitude;
     }

@@ -83,10 +83,9 @@ inline void ScaleIntensity(DetectTile& tile, const IntensityErrorParameters& par
     if constexpr (kErrors == IntensityErrors::kOfChannelByRange) {
       const float turns_per_log = 0.15915494F / parameters.log_range_ratio;  // 1 / (2 pi)
       const float turns = normals.d * (turns_per_log * Log(tile.true_range_m[i]));
-      constexpr float kRounder = 12582912.0F;  // As in Exp: rounds to the nearest integer.
       float cosine{};
       float sine{};
-      CosSinTurn(turns - ((turns + kRounder) - kRounder), cosine, sine);
+      CosSinTurn(WithinHalfATurn(turns), cosine, sine);
       exponent += h * (normals.b * cosine + normals.c * sine) - 0.5F * h * h;
     }
     tile.intensity[i] *= Exp(exponent);

@@ -50,6 +50,12 @@ TEST(VectorMath, CosineAndSineOfATurnAreWithinTwoTenMillionths) {
   EXPECT_LE(worst, 2e-7);
 }
 
+TEST(VectorMath, TurnsHaveTheirFractionFromTheNearestWholeOne) {
+  for (const float turns : {0.0F, 0.25F, -0.375F, 7.625F, -1000.125F, 4194302.5F}) {
+    EXPECT_EQ(baseline::WithinHalfATurn(turns), std::remainder(turns, 1.0F)) << turns;
+  }
+}
+
 TEST(VectorMath, AcosIsWithinHalfAMicroradian) {
   double worst = 0.0;
   for (int i = 0; i <= kSteps; ++i) {
