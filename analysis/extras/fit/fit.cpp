@@ -278,11 +278,9 @@ void AddIntensities(const ReceiverFigures& figures, FitResult& result) {
     } else if (estimate.low <= 0.0) {
       parameter.estimate = NotEnough(estimate.num);
       parameter.remark = "not identified: its interval holds 0";
-    } else {  // The key is the relative deviation of what is log-normal (MeasurementParameters).
+    } else {
       Estimate& of = parameter.estimate;
-      for (double* const end : {&of.value, &of.low, &of.high}) {
-        *end = std::sqrt(std::expm1(*end * *end));
-      }
+      for (double* const end : {&of.value, &of.low, &of.high}) *end = RelativeDeviation(*end);
     }
     result.parameters.push_back(parameter);
   };

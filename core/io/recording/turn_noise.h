@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -70,6 +71,12 @@ struct SmoothTurn {
 
 /// Distances along a ring at which the texture is measured, to a fifth.
 inline constexpr std::array<double, 3> kTextureLags_m = {0.02, 0.1, 0.4};
+
+/// The relative standard deviation of what is log-normal, as keys of scenarios have it, for that of
+/// its logarithm.
+[[nodiscard]] inline double RelativeDeviation(double of_logarithm) {
+  return std::sqrt(std::expm1(of_logarithm * of_logarithm));
+}
 
 struct TurnNoise {
   /// A standard deviation from the smaller nine tenths of the magnitudes, as if they were normal,

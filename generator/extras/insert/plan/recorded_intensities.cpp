@@ -75,7 +75,7 @@ std::string FigureText(const JackknifedFigure& figure, double scale) {
 std::string UseNoise(const RecordedIntensities& recorded, ScenarioSpec& plan) {
   constexpr double kPercent = 100.0;
   std::string why_not = WhyNotUsed(recorded.noise);
-  const double noise = std::sqrt(std::expm1(recorded.noise.value * recorded.noise.value));
+  const double noise = RelativeDeviation(recorded.noise.value);
   if (noise > 1.0) why_not = "since more than 100 % were measured";
   if (!why_not.empty()) return "noise of the sensor's file, " + why_not;
   plan.lidar.receiver.intensity_noise = noise;
