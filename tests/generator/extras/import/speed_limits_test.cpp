@@ -9,7 +9,6 @@
 #include <tuple>
 #include <vector>
 
-#include "generator/extras/import/fit/plan_geometry.h"
 #include "generator/extras/import/lines/imported_line.h"
 #include "generator/extras/import/lines/line_tags.h"
 #include "generator/extras/import/map/map_projection.h"
