@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "core/io/recording/column_finder.h"
 #include "core/io/recording/surface_point.h"
@@ -16,34 +17,49 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 using BySector = std::array<std::vector<double>, kNumSectors>;
 
-/// The root mean square of a share of the magnitudes, the smaller ones, without those of a sector.
-double RmsWithout(const BySector& samples, std::size_t left_out, double share) {
-  std::vector<double> squares;
-  for (std::size_t sector = 0; sector < samples.size(); ++sector) {
-    if (sector == left_out) continue;
-    for (const double sample : samples.at(sector)) squares.push_back(sample * sample);
+/// Squares of samples, sorted, with the sector of each.
+struct SortedSquares {
+  explicit SortedSquares(const BySector& samples) {
+    for (std::size_t sector = 0; sector < samples.size(); ++sector) {
+      for (const double sample : samples.at(sector)) {
+        squares.emplace_back(sample * sample, sector);
+      }
+      sizes.push_back(samples.at(sector).size());
+    }
+    std::ranges::sort(squares);
   }
-  const auto num = static_cast<std::size_t>(share * static_cast<double>(squares.size()));
-  const auto end = squares.begin() + static_cast<std::ptrdiff_t>(num);
-  std::nth_element(squares.begin(), end, squares.end());
-  double sum = 0.0;
-  std::for_each(squares.begin(), end, [&](double square) { sum += square; });
-  return num == 0 ? 0.0 : std::sqrt(sum / static_cast<double>(num));
-}
+
+  /// The mean of a share of the squares, the smaller ones, without those of a sector.
+  [[nodiscard]] double MeanWithout(std::size_t left_out, double share) const {
+    const std::size_t num_left = squares.size() - (left_out < sizes.size() ? sizes[left_out] : 0);
+    const auto num = static_cast<std::size_t>(share * static_cast<double>(num_left));
+    double sum = 0.0;
+    std::size_t num_summed = 0;
+    for (const auto& [square, sector] : squares) {
+      if (num_summed == num) break;
+      if (sector == left_out) continue;
+      sum += square;
+      ++num_summed;
+    }
+    return num == 0 ? 0.0 : sum / static_cast<double>(num);
+  }
+
+  std::vector<std::pair<double, std::size_t>> squares;
+  std::vector<std::uint64_t> sizes;  ///< Of the sectors.
+};
 
 /// The deviation of one of two returns by their differences, less that of others.
 TurnNoise::Deviations DeviationOf(const BySector& differences, const BySector& less = {}) {
   constexpr double kShare = 0.9;
   constexpr double kOfNormal = 0.7893;  // Root mean square of the smaller 90 % of normal samples.
-  std::vector<std::uint64_t> sizes;
-  for (const auto& samples : differences) sizes.push_back(samples.size());
+  const SortedSquares all(differences);
+  const SortedSquares noise(less);
   const auto estimate = [&](double share, double of_normal) {
     const auto without = [&](std::size_t left_out) {
-      const double all = RmsWithout(differences, left_out, share);
-      const double noise = RmsWithout(less, left_out, share);
-      return std::sqrt(0.5 * std::max(0.0, all * all - noise * noise)) / of_normal;
+      const double rest = all.MeanWithout(left_out, share) - noise.MeanWithout(left_out, share);
+      return std::sqrt(0.5 * std::max(0.0, rest)) / of_normal;
     };
-    return Jackknife(without, sizes);
+    return Jackknife(without, all.sizes);
   };
   return {estimate(kShare, kOfNormal), estimate(1.0, 1.0)};
 }
