@@ -58,16 +58,16 @@ MAKERS = (
 
 # (name in the table, the commands, with @ for the recording and OUT for what they write; the first that works counts)
 TAKERS = (
-    ("`stats`", "analyze stats @ --out OUT"),
-    ("`inspect`", "analyze inspect @ --out OUT"),
+    ("`stats`", "analyze stats @ --format json"),
+    ("`inspect`", "analyze inspect @ --format json"),
     ("`view`", "view @ --size 160x100 --screenshot OUT.png"),
     ("`view --compare`", "view @ --compare @ --size 160x100 --screenshot OUT.png"),
     ("`railcast.open`", "python open"),
     ("`railcast.Dataset`", "python dataset"),
-    ("`detect`", "analyze detect @ --out OUT"),
-    ("`evaluate`", "analyze evaluate @ --out OUT"),
-    ("`compare`", "analyze compare @ @ --out OUT"),
-    ("`fit`", "analyze fit @ --scenario SCENARIO --out OUT", "analyze fit @ --out OUT"),
+    ("`detect`", "analyze detect @ --format json"),
+    ("`evaluate`", "analyze evaluate @ --format json"),
+    ("`compare`", "analyze compare @ @ --format json"),
+    ("`fit`", "analyze fit @ --scenario SCENARIO --format json", "analyze fit @ --format json"),
     ("`preset`", "analyze preset @ --scenario SCENARIO --out OUT"),
     ("`insert`", "generate insert @ PLAN --format pcd --out OUT", "generate insert @ PLAN --out OUT"),
     ("`convert`", "generate convert @ OUT --format ply"),
