@@ -180,13 +180,12 @@ void CheckRoads(const WorldSpec& world, const DiamondSite& diamond, WorldFaults&
 
 // Every track is canted about its own axis, so that rails which cross would not be equally high.
 void CheckLevel(const DiamondSite& diamond, const Alignment& alignment, WorldFaults& faults) {
-  constexpr double kMost_rad = 1e-3;  // The rails of an acute frog differ by 1.4 mm then.
   double steepest_rad = 0.0;
   for (double s_m = diamond.begin_s_m; s_m < diamond.end_s_m + kSampling_m; s_m += kSampling_m) {
     const double cant_rad = std::abs(alignment.At(std::min(s_m, diamond.end_s_m)).cant_rad);
     steepest_rad = std::max(steepest_rad, cant_rad);
   }
-  if (steepest_rad <= kMost_rad) return;
+  if (steepest_rad <= kMostCantAtCrossing_rad) return;
   constexpr double kRailHeads_m = 1.5;
   faults.Add("/world/diamond_crossings/" + std::to_string(diamond.entry) + "/s_m",
              "must be where the line has no cant",

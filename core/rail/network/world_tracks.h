@@ -30,6 +30,9 @@ struct WorldTracks {
 /// Minimum distance between the axes of tracks that run side by side.
 inline constexpr double kLeastTrackDistance_m = 3.0;
 
+/// Most cant where tracks cross: the rails of an acute frog differ by 1.4 mm then.
+inline constexpr double kMostCantAtCrossing_rad = 1e-3;
+
 /// Tracks of which one runs this close to the next share a tunnel: nearer than this, one with a
 /// lining of its own, of 5.1 m radius and 0.5 m thick, would have it in the gauge of the other,
 /// which is 1.575 m wide to either side and leans over by 0.18 m at half the lining's height with a

@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/rail/line/alignment_course.h"
+#include "core/rail/network/world_tracks.h"
 #include "generator/extras/import/fit/plan_model.h"
 #include "generator/extras/import/heights/profile_fit.h"
 #include "generator/extras/import/lines/line_places.h"
@@ -138,14 +139,13 @@ void SetCants(const RailMap& map, const TrackLine& track, ImportedLine& line) {
 void LevelCant(std::span<const ChainageRange> level, AlignmentSpec& line) {
   constexpr double kStep_m = 10.0;
   constexpr double kSteps_per_mm = 100.0;
-  constexpr double kLevel_rad = 1e-3;  // As CheckNetwork() asks for at crossings.
   const Alignment alignment(line);
   const double length_m = alignment.length_m();
   const auto is_in_cant = [&](const ChainageRange& stretch) {
     double s_m = std::max(0.0, stretch.begin_s_m);
     const double end_s_m = std::min(length_m, stretch.end_s_m);
-    while (s_m < end_s_m && std::abs(alignment.At(s_m).cant_rad) <= kLevel_rad) ++s_m;
-    return s_m < end_s_m || std::abs(alignment.At(end_s_m).cant_rad) > kLevel_rad;
+    while (s_m < end_s_m && std::abs(alignment.At(s_m).cant_rad) <= kMostCantAtCrossing_rad) ++s_m;
+    return s_m < end_s_m || std::abs(alignment.At(end_s_m).cant_rad) > kMostCantAtCrossing_rad;
   };
   std::vector<ChainageRange> in_cant;
   std::ranges::copy_if(level, std::back_inserter(in_cant), is_in_cant);

@@ -22,7 +22,6 @@ constexpr double kLeastApart_m = kLeastTrackDistance_m + 0.02;
 constexpr double kOnAxis_m = 1.5;
 /// Half the length of a crossing: the frogs of one at 1:9 are 13 m from its middle.
 constexpr double kHalfDiamond_m = 15.0;
-constexpr double kLevel_rad = 1e-3;  // As CheckNetwork() asks for at crossings.
 
 TrackDraft DraftOf(TrackSpec spec, TrackCourse course) {
   TrackDraft draft{std::move(spec), std::move(course), {}, {}, 0, {}};
@@ -101,7 +100,7 @@ double TrackNetwork::InMappedCrossings_m(std::size_t track,
   double sum_m = 0.0;
   for (const Eigen::Vector2d& place_m : crossings_m_) {
     if (TrackCrossingAt(place_m)) continue;
-    if (std::abs(alignment_.At(place_m.x()).cant_rad) > kLevel_rad) continue;
+    if (std::abs(alignment_.At(place_m.x()).cant_rad) > kMostCantAtCrossing_rad) continue;
     if (std::abs(tracks_[track].OffsetNear_m(place_m.x()) - place_m.y()) > kOnAxis_m) continue;
     sum_m += std::max(0.0, std::min(to_s_m, place_m.x() + kHalfDiamond_m) -
                                std::max(from_s_m, place_m.x() - kHalfDiamond_m));
@@ -274,9 +273,8 @@ std::optional<std::string> TrackNetwork::TrackCrossingAt(const Eigen::Vector2d& 
 }
 
 std::string TrackNetwork::ReasonAgainstCrossing(const Eigen::Vector2d& place_m) const {
-  constexpr double kLevel_rad = 1e-3;
   const double s_m = place_m.x();
-  if (std::abs(alignment_.At(s_m).cant_rad) > kLevel_rad) {
+  if (std::abs(alignment_.At(s_m).cant_rad) > kMostCantAtCrossing_rad) {
     return "the line has cant there, and tracks cross where it has none";
   }
   const auto track = TrackNear(s_m, place_m.y());
