@@ -15,12 +15,14 @@
 #include "tests/core/io/temporary_directory.h"
 #include "tests/stability/regime.h"
 #include "tests/support/bare_line.h"
+#include "tests/support/scan_once.h"
 #include "tests/support/sensor_sector.h"
 
 namespace railcast {
 namespace {
 
 constexpr double kSensorAbove_m = 3.5;
+constexpr double kBeyond_m = 60.0;  // Farther than any object here: no chunks beyond are built.
 
 /// A place on a surface, and what it is.
 struct Target {
@@ -97,17 +99,17 @@ class AimedBeamsAt : public testing::TestWithParam<ObjectType> {
   }
 
   /// What one beam returns that is sent at the stamp of a frame.
-  [[nodiscard]] Frame Aim(const std::shared_ptr<const RailWorld>& world,
+  [[nodiscard]] Frame Aim(const std::shared_ptr<SceneStore>& scenes,
+                          const RailWorld& world,
                           const ScanPattern& pattern,
                           std::uint32_t frame_index) const {
     const std::int64_t time_ns = pattern.StampNs(frame_index);
     SimulatorSpec spec{.vehicle_from_sensor =
-                           VehicleFromSensorAimedAt(world->WorldFromVehicle(time_ns).inverse() *
-                                                        MiddleOf(*world, 0, time_ns).point_world,
+                           VehicleFromSensorAimedAt(world.WorldFromVehicle(time_ns).inverse() *
+                                                        MiddleOf(world, 0, time_ns).point_world,
                                                     kSensorAbove_m)};
-    Frame frame;
-    Simulator(world, pattern, materials_, spec, 0).Scan(frame_index, frame);
-    return frame;
+    spec.detector.range_max_m = kBeyond_m;
+    return FrameBy(Simulator(scenes, pattern, materials_, spec, 0), frame_index);
   }
 
   void ExpectItIsReturned(bool moves) const {
@@ -117,8 +119,9 @@ class AimedBeamsAt : public testing::TestWithParam<ObjectType> {
     ASSERT_EQ(world->objects().front().moves, moves);
     const ScanPattern pattern = MakeRaster(1.0, 1.0, 1.0);
     ASSERT_EQ(pattern.num_firings(), 1U);
+    const auto scenes = MakeSceneStore(world, materials_);
     for (const std::uint32_t frame_index : {0U, 7U, 20U}) {
-      const Frame frame = Aim(world, pattern, frame_index);
+      const Frame frame = Aim(scenes, *world, pattern, frame_index);
       const SceneObject& object = world->objects().front();
       const Target target = MiddleOf(*world, 0, pattern.StampNs(frame_index));
       ASSERT_TRUE(HasPoint(frame.outcome[0])) << frame_index;

@@ -97,7 +97,7 @@ TEST(EdgesAndSeams, ABoxAcrossAChunkSeamLetsNoBeamEscape) {
 }
 
 TEST(EdgesAndSeams, AnExactSeamLeaksBeamsAimedAtIt) {
-  constexpr std::uint64_t kNumBeams = 1'000'000;
+  constexpr std::uint64_t kNumBeams = 200'000;
   const auto leaking_share = [](double overlap_m) {
     const Tunnel tunnel(overlap_m);
     return static_cast<double>(
@@ -106,12 +106,12 @@ TEST(EdgesAndSeams, AnExactSeamLeaksBeamsAimedAtIt) {
            static_cast<double>(kNumBeams);
   };
   const double exact = leaking_share(0.0);
-  RecordRegime(
-      "beams aimed at the seam of two chunks",
-      {"chunks that end exactly at the seam: " + TwoDigits(100.0 * exact) + " % escape",
-       "1 mm of overlap: " + TwoDigits(100.0 * leaking_share(kChunkOverlap_m)) + " % escape"});
+  const double overlapping = leaking_share(kChunkOverlap_m);
+  RecordRegime("beams aimed at the seam of two chunks",
+               {"chunks that end exactly at the seam: " + TwoDigits(100.0 * exact) + " % escape",
+                "1 mm of overlap: " + TwoDigits(100.0 * overlapping) + " % escape"});
   EXPECT_GT(exact, 0.001);
-  EXPECT_EQ(leaking_share(kChunkOverlap_m), 0.0);
+  EXPECT_EQ(overlapping, 0.0);
 }
 
 /// Returns beams from many places inside a sphere, through its vertices or the middles of its
