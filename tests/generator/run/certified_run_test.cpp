@@ -103,6 +103,13 @@ TEST_F(CertifiedRun, RefusesSharesThatAreNoneAndTheReferenceItself) {
 }
 
 TEST_F(CertifiedRun, TellsOfFidelityAutoWhereItsToleranceHeld) {
+  // The choice takes a time for each firing of the sensor.
+  WriteFileWhole(Path("scenario.json"),
+                 R"({"version": 1, "file": ")" RAILCAST_SOURCE_DIR
+                 R"(/scenarios/minimal.json", "lidar": {"file": ")" RAILCAST_SOURCE_DIR
+                 R"(/scenarios/sensors/vir2rail.json", "scan": {"rate_hz": 10, "pattern": {
+                    "type": "raster", "horizontal_fov_deg": 60, "vertical_fov_deg": 30,
+                    "angular_resolution_deg": 0.5}}}})");
   const Ended ended = Make("out", "--frames 2 --fidelity auto --certify 100%");
   ASSERT_EQ(ended.status, 0) << ended.said;
   EXPECT_THAT(ended.said, HasSubstr("the tolerance held for certain in"));
