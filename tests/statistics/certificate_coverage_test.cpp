@@ -177,7 +177,7 @@ constexpr double kNumDrawn = 300.0;
 
 TEST(CertificateCoverage, IsThatOfIntervalsOf95PercentOnTheDemosFrames) {
   const IntervalCoverage coverage =
-      CoverageOf({"st_gallen_approach", "vir2rail", "surface", 6}, kPopulation, kNumDrawn);
+      CoverageOf({"st_gallen_approach", "vir2rail", "surface", 6}, 0.5 * kPopulation, kNumDrawn);
   ASSERT_GT(coverage.num_firings, 4000U);
   // 93 to 97 % and two standard deviations of 400 drawings on either side; intervals of quantiles
   // may be wider.
