@@ -18,28 +18,38 @@ std::size_t NumPoses(const TraceFigures& figures) {
   return count;
 }
 
-// Whether a ray with a direction of length 1 comes into a sphere before its end.
-bool MayMeetSphere(const Eigen::Vector3f& to_center_m,
-                   const Eigen::Vector3f& direction,
-                   float radius_m,
-                   float range_m) {
-  const float along_m = to_center_m.dot(direction);
-  if (along_m < -radius_m || along_m - radius_m > range_m) return false;
-  return (to_center_m - along_m * direction).squaredNorm() <= radius_m * radius_m;
-}
-
-// Whether a ray comes into a box before its end. Embree asks whether any ray of a packet does.
-bool MayMeetBox(const RTCRay& ray, const Eigen::AlignedBox3f& box_m) {
-  const Eigen::Array3f origin_m(ray.org_x, ray.org_y, ray.org_z);
-  const Eigen::Array3f direction(ray.dir_x, ray.dir_y, ray.dir_z);
-  const Eigen::Array3f to_min = (box_m.min().array() - origin_m) / direction;
-  const Eigen::Array3f to_max = (box_m.max().array() - origin_m) / direction;
-  const float begin_m = to_min.min(to_max).maxCoeff();
-  const float end_m = to_min.max(to_max).minCoeff();
-  return !(begin_m > end_m || end_m < 0.0F || begin_m > ray.tfar);
+// The box around a box that is moved, with a margin for the rounding of both.
+Eigen::AlignedBox3f BoxAround(const Eigen::AlignedBox3f& box_m, const Matrix34& moved) {
+  constexpr float kRounding_m = 1e-3F;  // float32 is ten times as exact at 1 km.
+  const Eigen::Vector3f center_m = moved.leftCols<3>() * box_m.center() + moved.col(3);
+  const Eigen::Vector3f half_m = moved.leftCols<3>().cwiseAbs() * (0.5F * box_m.sizes()) +
+                                 Eigen::Vector3f::Constant(kRounding_m);
+  return {center_m - half_m, center_m + half_m};
 }
 
 }  // namespace
+
+/// A ray, as boxes are tested against it.
+struct PosedFigures::Probe {
+  explicit Probe(const RTCRay& ray)
+      : origin_m(ray.org_x, ray.org_y, ray.org_z, 0.0F),
+        per_m(Eigen::Array4f(ray.dir_x, ray.dir_y, ray.dir_z, 1.0F).inverse()) {}
+
+  /// Whether the ray comes into a box before its end.
+  [[nodiscard]] bool MayMeet(const SlabBox& box, float range_m) const {
+    const Eigen::Array4f to_min = (box.min_m - origin_m) * per_m;
+    const Eigen::Array4f to_max = (box.max_m - origin_m) * per_m;
+    const Eigen::Array4f begin_m = to_min.min(to_max);
+    const Eigen::Array4f end_m = to_min.max(to_max);
+    for (int i = 0; i < 3; ++i) {
+      const float begin = begin_m[i];
+      if (begin > range_m || begin > end_m[0] || begin > end_m[1] || begin > end_m[2]) return false;
+    }
+    return !(end_m[0] < 0.0F || end_m[1] < 0.0F || end_m[2] < 0.0F);
+  }
+
+  Eigen::Array4f origin_m, per_m;
+};
 
 PosedFigures::PosedFigures(TraceFigures figures)
     : figures_(std::move(figures)), poses_(NumPoses(figures_)) {
@@ -51,8 +61,7 @@ PosedFigures::PosedFigures(TraceFigures figures)
   }
 }
 
-const std::vector<PosedFigures::PlacedPiece>& PosedFigures::PoseAt(std::size_t figure,
-                                                                   std::uint32_t step) const {
+const PosedFigures::Pose& PosedFigures::PoseAt(std::size_t figure, std::uint32_t step) const {
   Pose& pose = poses_[first_poses_[figure] + step];
   std::call_once(pose.once, [&] {
     const TraceFigure& its = figures_.figures[figure];
@@ -65,11 +74,12 @@ const std::vector<PosedFigures::PlacedPiece>& PosedFigures::PoseAt(std::size_t f
     pose.pieces.reserve(pieces.size());
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       const Matrix34 matrix = places[i].matrix().topRows<3>().cast<float>();
-      const Eigen::Vector3f& center_m = pieces[i].model->handle().sphere.center_m;
-      pose.pieces.push_back({matrix, matrix.leftCols<3>() * center_m + matrix.col(3)});
+      const SlabBox box(BoxAround(pieces[i].model->handle().box_m, matrix));
+      pose.pieces.push_back({matrix, box});
+      pose.window_box_m = pose.window_box_m.Merged(box);
     }
   });
-  return pose.pieces;
+  return pose;
 }
 
 void PosedFigures::AttachTo(RTCDevice device, RTCScene scene) const {
@@ -102,32 +112,39 @@ void PosedFigures::IntersectRays(const RTCIntersectFunctionNArguments* args) {
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0) continue;
     RTCRayHit ray = rtcGetRayHitFromRayHitN(args->rayhit, args->N, i);
-    if (!MayMeetBox(ray.ray, self.figures()[args->primID].window_box_m)) continue;
-    if (!self.Intersect(args->primID, static_cast<RayQueryContext&>(*args->context), ray)) continue;
+    const Probe probe(ray.ray);
+    // Embree asks whether any ray of a packet comes into the box.
+    if (!probe.MayMeet(SlabBox(self.figures()[args->primID].window_box_m), ray.ray.tfar)) continue;
+    if (!self.Intersect(args->primID, probe, static_cast<RayQueryContext&>(*args->context), ray)) {
+      continue;
+    }
     RTCRayN_tfar(rays, args->N, i) = ray.ray.tfar;
     rtcCopyHitToHitN(hits, &ray.hit, args->N, i);
   }
 }
 
-bool PosedFigures::Intersect(std::size_t figure, RayQueryContext& context, RTCRayHit& ray) const {
+bool PosedFigures::Intersect(std::size_t figure,
+                             const Probe& probe,
+                             RayQueryContext& context,
+                             RTCRayHit& ray) const {
   const TraceFigure& its = figures()[figure];
   const float time = ray.ray.time * static_cast<float>(its.num_steps - 1);
   const auto step = std::min(static_cast<std::uint32_t>(time), its.num_steps - 2);
   const float share = time - static_cast<float>(step);
-  const std::vector<PlacedPiece>& begin = PoseAt(figure, step);
-  const std::vector<PlacedPiece>& end = PoseAt(figure, step + 1);
+  // Between two poses, every point stays on the straight line between its ends.
+  const Pose& first = PoseAt(figure, step);
+  const Pose& second = PoseAt(figure, step + 1);
+  if (!probe.MayMeet(first.window_box_m.Merged(second.window_box_m), ray.ray.tfar)) return false;
   const Eigen::Vector3f origin_m(ray.ray.org_x, ray.ray.org_y, ray.ray.org_z);
   const Eigen::Vector3f direction(ray.ray.dir_x, ray.ray.dir_y, ray.ray.dir_z);
   bool is_hit = false;
-  for (std::size_t i = 0; i < begin.size(); ++i) {
+  for (std::size_t i = 0; i < first.pieces.size(); ++i) {
+    const PlacedPiece& begin = first.pieces[i];
+    const PlacedPiece& end = second.pieces[i];
+    if (!probe.MayMeet(begin.window_box_m.Merged(end.window_box_m), ray.ray.tfar)) continue;
     const TracePiece& piece = (*its.pieces)[i];
-    const TraceModel::Handle& model = piece.model->handle();
-    const Eigen::Vector3f center_m =
-        begin[i].center_m + share * (end[i].center_m - begin[i].center_m);
-    if (!MayMeetSphere(center_m - origin_m, direction, model.sphere.radius_m, ray.ray.tfar))
-      continue;
     const Matrix34 window_from_piece =
-        (1.0F - share) * begin[i].window_from_piece + share * end[i].window_from_piece;
+        (1.0F - share) * begin.window_from_piece + share * end.window_from_piece;
     const Eigen::Matrix3f piece_from_window = window_from_piece.leftCols<3>().inverse();
     RTCRayHit local = ray;
     local.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -135,7 +152,7 @@ bool PosedFigures::Intersect(std::size_t figure, RayQueryContext& context, RTCRa
         piece_from_window * (origin_m - window_from_piece.col(3));
     Eigen::Map<Eigen::Vector3f>(&local.ray.dir_x) = piece_from_window * direction;
     context.instID[0] = static_cast<unsigned>(figure);
-    RayQuery(context).Intersect1(model.scene, local);
+    RayQuery(context).Intersect1(piece.model->handle().scene, local);
     context.instID[0] = RTC_INVALID_GEOMETRY_ID;
     if (local.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
     is_hit = true;

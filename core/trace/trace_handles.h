@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -121,11 +122,7 @@ struct TraceModel::Handle {
   std::string name;
   bool is_foliage{};
   std::vector<PartSize> parts;
-  struct Sphere {
-    Eigen::Vector3f center_m = Eigen::Vector3f::Zero();
-    float radius_m{};
-  };
-  Sphere sphere;  ///< Contains the model.
+  Eigen::AlignedBox3f box_m;  ///< Contains the model; a point if that has nothing.
 
   ~Handle() {
     if (scene != nullptr) rtcReleaseScene(scene);
@@ -184,13 +181,41 @@ void BuildScene(RTCDevice device,
   });
 }
 
+/// A box, against which a ray is tested in four lanes. The last one is endless.
+struct SlabBox {
+  SlabBox() = default;
+  explicit SlabBox(const Eigen::AlignedBox3f& box_m) {
+    min_m.head<3>() = box_m.min().array();
+    max_m.head<3>() = box_m.max().array();
+  }
+  [[nodiscard]] SlabBox Merged(const SlabBox& other) const {
+    SlabBox both;
+    both.min_m = min_m.min(other.min_m);
+    both.max_m = max_m.max(other.max_m);
+    return both;
+  }
+
+  /// Empty at first.
+  Eigen::Array4f min_m{kEndless, kEndless, kEndless, -kEndless};
+  Eigen::Array4f max_m{-kEndless, -kEndless, -kEndless, kEndless};
+
+ private:
+  static constexpr float kEndless = std::numeric_limits<float>::infinity();
+};
+
 /// The figures of a scene as one geometry of Embree. Each pose is made when a ray first needs it.
 class PosedFigures {
  public:
   /// A piece of a figure in one of its poses.
   struct PlacedPiece {
     Eigen::Matrix<float, 3, 4> window_from_piece;
-    Eigen::Vector3f center_m;  ///< Of the sphere around it, in the window.
+    SlabBox window_box_m;  ///< Contains it.
+  };
+  /// All pieces of a figure at a step.
+  struct Pose {
+    std::once_flag once;
+    std::vector<PlacedPiece> pieces;
+    SlabBox window_box_m;  ///< Contains them.
   };
 
   explicit PosedFigures(TraceFigures figures);
@@ -198,9 +223,8 @@ class PosedFigures {
   PosedFigures& operator=(const PosedFigures&) = delete;
 
   [[nodiscard]] const std::vector<TraceFigure>& figures() const { return figures_.figures; }
-  /// The pieces of a figure in the pose of a step. Thread-safe.
-  [[nodiscard]] const std::vector<PlacedPiece>& PoseAt(std::size_t figure,
-                                                       std::uint32_t step) const;
+  /// The pose of a figure at a step. Thread-safe.
+  [[nodiscard]] const Pose& PoseAt(std::size_t figure, std::uint32_t step) const;
 
   /// Attaches the figures to a scene of Embree as its geometry 0. They must outlive it.
   ///
@@ -209,15 +233,15 @@ class PosedFigures {
   void AttachTo(RTCDevice device, RTCScene scene) const;
 
  private:
-  struct Pose {
-    std::once_flag once;
-    std::vector<PlacedPiece> pieces;
-  };
+  struct Probe;
 
   static void ReportBox(const RTCBoundsFunctionArguments* args);
   static void IntersectRays(const RTCIntersectFunctionNArguments* args);
   /// Returns whether the ray hits a piece nearer than before, and puts the hit into it.
-  bool Intersect(std::size_t figure, RayQueryContext& context, RTCRayHit& ray) const;
+  bool Intersect(std::size_t figure,
+                 const Probe& probe,
+                 RayQueryContext& context,
+                 RTCRayHit& ray) const;
 
   TraceFigures figures_;
   std::vector<std::size_t> first_poses_;  ///< By figure, index into `poses_`.

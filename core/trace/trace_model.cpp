@@ -82,18 +82,6 @@ std::vector<BeamTriangle> TrianglesOf(RTCScene scene,
 
 }  // namespace
 
-namespace {
-
-TraceModel::Handle::Sphere SphereAround(const Model& model) {
-  const Eigen::AlignedBox3d box_m = model.Bounds();
-  if (box_m.isEmpty()) return {};
-  constexpr double kRounding_m = 1e-3;  // float32 is ten times as exact at 1 km.
-  return {box_m.center().cast<float>(),
-          static_cast<float>(0.5 * box_m.diagonal().norm() + kRounding_m)};
-}
-
-}  // namespace
-
 std::string TraceModel::Handle::Doing() const {
   std::size_t num_triangles = 0;
   for (const PartSize& part : parts) num_triangles += part.num_triangles;
@@ -119,7 +107,9 @@ TraceModel::TraceModel(const TraceDevice& device, const Model& model, bool is_pa
   handle_->device = device.handle();
   handle_->name = model.name;
   handle_->is_foliage = model.is_foliage;
-  handle_->sphere = SphereAround(model);
+  const Eigen::AlignedBox3d box_m = model.Bounds();
+  handle_->box_m =
+      box_m.isEmpty() ? Eigen::AlignedBox3f(Eigen::Vector3f::Zero().eval()) : box_m.cast<float>();
   for (const Part& part : model.parts) {
     handle_->parts.push_back({part.mesh.triangles.size(), part.label, part.is_wire});
   }

