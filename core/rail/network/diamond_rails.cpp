@@ -5,6 +5,7 @@
 #include <functional>
 #include <numeric>
 #include <utility>
+#include <vector>
 
 #include "core/base/error.h"
 
@@ -14,6 +15,59 @@ namespace {
 /// How far the rail that guards wheels in an obtuse frog reaches beyond the tip of the planed rail.
 constexpr double kObtuseGuard_m = 1.5;
 
+/// Seeks places at which a spread has given values, from one chainage on to one side.
+class SpreadWalk {
+ public:
+  SpreadWalk(std::function<double(double)> spread_m, double from_s_m, double side)
+      : spread_m_(std::move(spread_m)), from_s_m_(from_s_m), side_(side) {}
+
+  /// The nearest chainage where the spread has a value, to 0.1 um.
+  [[nodiscard]] std::optional<double> Where(double value_m) {
+    const bool is_above = StepSpread_m(0) > value_m;
+    std::size_t step = 1;
+    while ((StepSpread_m(step) > value_m) == is_above) {
+      ++step;
+      if (static_cast<double>(step) * kStep_m > kDiamondReach_m) return std::nullopt;
+    }
+    // The spread is nearly linear within a step: a few chords lead to the two parts between which
+    // it has the value.
+    constexpr int kParts = 1 << 23;
+    constexpr int kMostChords = 8;
+    const double begin_m = static_cast<double>(step - 1) * kStep_m;
+    const auto along_m = [&](int part) { return begin_m + part * (kStep_m / kParts); };
+    int near = 0;
+    int far = kParts;
+    double near_m = StepSpread_m(step - 1) - value_m;
+    double far_m = StepSpread_m(step) - value_m;
+    for (int num_tried = 0; far - near > 1; ++num_tried) {
+      const double share = num_tried < kMostChords ? near_m / (near_m - far_m) : 0.5;
+      const int part =
+          std::clamp(near + static_cast<int>(std::lround(share * (far - near))), near + 1, far - 1);
+      const double part_m = spread_m_(from_s_m_ + side_ * along_m(part)) - value_m;
+      const bool is_near = (part_m > 0.0) == is_above;
+      (is_near ? near : far) = part;
+      (is_near ? near_m : far_m) = part_m;
+    }
+    return from_s_m_ + side_ * along_m(far);
+  }
+
+ private:
+  static constexpr double kStep_m = 0.5;
+
+  double StepSpread_m(std::size_t step) {
+    while (spreads_m_.size() <= step) {
+      const double along_m = static_cast<double>(spreads_m_.size()) * kStep_m;
+      spreads_m_.push_back(spread_m_(from_s_m_ + side_ * along_m));
+    }
+    return spreads_m_[step];
+  }
+
+  std::function<double(double)> spread_m_;
+  double from_s_m_;
+  double side_;
+  std::vector<double> spreads_m_;  ///< At steps from `from_s_m_` on, as far as they were needed.
+};
+
 /// One of the four rails of a diamond. It passes its acute frog and then its obtuse one: with
 /// rising chainage, or with falling chainage.
 class CrossedRail {
@@ -22,34 +76,31 @@ class CrossedRail {
       : frog_(AcuteFrog(diamond, on_second, is_left)) {}
 
   [[nodiscard]] std::optional<CrossedRailPlaces> Places() const {
-    const auto spread_m = [&](double s_m) { return frog_.Spread_m(s_m); };
-    const auto obtuse_m = [&](double s_m) { return frog_.SpreadBeside_m(s_m); };
     const double middle_s_m = frog_.from_s_m;
     const double onwards = IsRising() ? 1.0 : -1.0;
-    const auto outwards = [&](double value_m) {
-      return Where(spread_m, value_m, middle_s_m, -onwards);
-    };
     // In the middle, the obtuse frog is decimetres away.
     constexpr double kBeside_m = 1.0;
-    const auto before = [&](double value_m) {
-      return Where(obtuse_m, value_m, middle_s_m + onwards * kBeside_m, -onwards);
-    };
-    const auto behind = [&](double value_m) {
-      return Where(obtuse_m, value_m, middle_s_m - onwards * kBeside_m, onwards);
-    };
-    const std::array<std::optional<double>, 8> found = {outwards(-kNoseSpread_m),
-                                                        outwards(-kNoseTipWidth_m),
-                                                        outwards(0.0),
-                                                        outwards(kFrogFlangeway_m),
-                                                        before(kNoseSpread_m),
-                                                        before(kFrogFlangeway_m + kNoseTipWidth_m),
-                                                        before(0.0),
-                                                        behind(-kNoseSpread_m)};
-    if (!std::ranges::all_of(found, [](const auto& place) { return place.has_value(); })) {
-      return std::nullopt;
+    const auto obtuse_m = [&](double s_m) { return frog_.SpreadBeside_m(s_m); };
+    SpreadWalk outwards([&](double s_m) { return frog_.Spread_m(s_m); }, middle_s_m, -onwards);
+    SpreadWalk before(obtuse_m, middle_s_m + onwards * kBeside_m, -onwards);
+    SpreadWalk behind(obtuse_m, middle_s_m - onwards * kBeside_m, onwards);
+    const std::array<std::pair<SpreadWalk*, double>, 8> sought = {
+        {{&outwards, -kNoseSpread_m},
+         {&outwards, -kNoseTipWidth_m},
+         {&outwards, 0.0},
+         {&outwards, kFrogFlangeway_m},
+         {&before, kNoseSpread_m},
+         {&before, kFrogFlangeway_m + kNoseTipWidth_m},
+         {&before, 0.0},
+         {&behind, -kNoseSpread_m}}};
+    std::array<double, 8> found{};
+    for (std::size_t i = 0; i < sought.size(); ++i) {
+      const std::optional<double> place = sought[i].first->Where(sought[i].second);
+      if (!place) return std::nullopt;
+      found[i] = *place;
     }
-    return CrossedRailPlaces{*found[0], *found[1], *found[2], *found[3],
-                             *found[4], *found[5], *found[6], *found[7]};
+    return CrossedRailPlaces{found[0], found[1], found[2], found[3],
+                             found[4], found[5], found[6], found[7]};
   }
 
   void AddTo(std::vector<TurnoutRail>& rails) const {
@@ -90,28 +141,6 @@ class CrossedRail {
   }
 
  private:
-  /// The chainage nearest to `from_s_m` on one side where the spread has a value, to 0.1 um.
-  static std::optional<double> Where(const std::function<double(double)>& spread_m,
-                                     double value_m,
-                                     double from_s_m,
-                                     double side) {
-    constexpr double kStep_m = 0.5;
-    constexpr double kExact_m = 1e-7;
-    const bool is_above = spread_m(from_s_m) > value_m;
-    double near_m = 0.0;
-    double far_m = 0.0;
-    do {
-      near_m = far_m;
-      far_m += kStep_m;
-      if (far_m > kDiamondReach_m) return std::nullopt;
-    } while ((spread_m(from_s_m + side * far_m) > value_m) == is_above);
-    while (far_m - near_m > kExact_m) {
-      const double middle_m = std::midpoint(near_m, far_m);
-      ((spread_m(from_s_m + side * middle_m) > value_m) == is_above ? near_m : far_m) = middle_m;
-    }
-    return from_s_m + side * far_m;
-  }
-
   [[nodiscard]] CrossedRailPlaces KnownPlaces() const {
     const std::optional<CrossedRailPlaces> places = Places();
     Check(places.has_value(), "a diamond's rails have been checked");
