@@ -39,16 +39,18 @@ void AppendFrame(const RecordedFrame& recorded, std::vector<double>& values) {
     const auto pose = frame.world_from_sensor.matrix();
     values.insert(values.end(), pose.data(), pose.data() + pose.size());
   }
+  std::vector<std::size_t> seen;
+  for (std::size_t i = 0; i < frame.x.size(); ++i) {
+    if (!std::isnan(frame.x[i])) seen.push_back(i);
+  }
   ForEachField(frame, [&](std::string_view name, std::string_view, const auto& field) {
     if (!recorded.Has(name)) return;
     const std::size_t axis = name == "x" ? 0 : name == "y" ? 1 : name == "z" ? 2 : 3;
     const double origin_m = axis == 3 ? 0.0 : recorded.origin_m[static_cast<Eigen::Index>(axis)];
     // Times that text has in single precision are right to 10 ns.
     const double scale = name == "time_ns" ? 1e-5 : 1.0;
-    for (std::size_t i = 0; i < field.size(); ++i) {
-      if (std::isnan(frame.x[i])) continue;
-      values.push_back(scale * static_cast<double>(field[i]) + origin_m);
-    }
+    auto value = values.insert(values.end(), seen.size(), 0.0);
+    for (const std::size_t i : seen) *value++ = scale * static_cast<double>(field[i]) + origin_m;
   });
   for (const ForeignField& field : recorded.foreign) {
     values.insert(values.end(), field.values.begin(), field.values.end());
