@@ -260,9 +260,14 @@ bool GaugeProbe::Measure(const ProbedTriangle& here,
   std::vector<Eigen::Vector2d> whole;
   for (const Vector3& corner : here) whole.emplace_back(side * corner.y(), corner.z());
   whole = Clipped(whole, -Eigen::Vector2d::UnitX(), 0.0);
+  Eigen::AlignedBox2d bounds_m;
+  for (const Eigen::Vector2d& point : whole) bounds_m.extend(point);
   bool is_inside = false;
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    if (rows[i].height_m > rows[i - 1].height_m) {
+    const double widest_m = std::max(rows[i - 1].half_width_m, rows[i].half_width_m);
+    const Eigen::AlignedBox2d between_m(Eigen::Vector2d(0.0, rows[i - 1].height_m),
+                                        Eigen::Vector2d(widest_m, rows[i].height_m));
+    if (rows[i].height_m > rows[i - 1].height_m && between_m.intersects(bounds_m)) {
       is_inside = Take(InsideOf(whole, rows[i - 1], rows[i]), rows, s_m) || is_inside;
     }
   }
