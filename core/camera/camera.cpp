@@ -21,7 +21,8 @@ namespace {
 // A tile of rays is a square of pixels, and each packet a square within it.
 constexpr std::uint32_t kBlock = 16;
 constexpr std::uint32_t kPacketBlock = 4;
-static_assert(kBlock * kBlock == kTileSize && kPacketBlock * kPacketBlock == kPacketSize);
+static_assert(std::size_t{kBlock} * kBlock == kTileSize &&
+              std::size_t{kPacketBlock} * kPacketBlock == kPacketSize);
 
 struct Pixel {
   std::uint32_t column, row;

@@ -50,8 +50,8 @@ Eigen::Vector2d Lens::Project(const Vector3& point) const {
 }
 
 std::optional<Eigen::Vector2d> Lens::DirectionAt(double u_px, double v_px) const {
-  const Eigen::Vector2d seen((u_px - intrinsics_.cx_px) / intrinsics_.focal_px,
-                             (v_px - intrinsics_.cy_px) / intrinsics_.focal_px);
+  Eigen::Vector2d seen((u_px - intrinsics_.cx_px) / intrinsics_.focal_px,
+                       (v_px - intrinsics_.cy_px) / intrinsics_.focal_px);
   if (!is_distorted_) return seen;
   constexpr int kMostSteps = 50;
   constexpr int kMostHalvings = 30;

@@ -17,20 +17,18 @@ Eigen::Vector3f PointOnWire(const RayTile& rays, const WireCapture& wire) {
   return origin + wire.range_m * PixelDirectionOf(rays, wire.lane);
 }
 
-/// Finds out on which of up to kTileSize wires the sun shines.
-void CastToSun(const RayTile& pixels,
-               const SceneOfFrame& scene,
-               const Eigen::Vector3f& to_sun,
-               float reach_m,
-               std::span<const WireCapture> wires,
-               RayTile& rays) {
+/// Points a ray from each of up to kTileSize wires to the sun.
+void PutRaysToSun(const RayTile& pixels,
+                  const Eigen::Vector3f& to_sun,
+                  float reach_m,
+                  std::span<const WireCapture> wires,
+                  RayTile& rays) {
   rays.num_rays = (wires.size() + kPacketSize - 1) / kPacketSize * kPacketSize;
   rays.mask = kAllButWires;
   for (std::size_t i = 0; i < rays.num_rays; ++i) {
     const WireCapture& wire = wires[std::min(i, wires.size() - 1)];
     PutRay(PointOnWire(pixels, wire), to_sun, reach_m, i, rays);
   }
-  scene.caster.Cast(rays);
 }
 
 /// The mean over the half of the wire's surface that is seen, each part by its width in the image.
@@ -77,7 +75,8 @@ void WiresInPixels::Shade(const RayTile& pixels,
     const std::span<const WireCapture> wires =
         std::span(captures_).subspan(first, std::min(kTileSize, captures_.size() - first));
     if (daylight.has_sun()) {
-      CastToSun(pixels, scene, daylight.to_sun(), reach_m, wires, to_sun);
+      PutRaysToSun(pixels, daylight.to_sun(), reach_m, wires, to_sun);
+      scene.caster.Cast(to_sun);
     }
     for (std::size_t i = 0; i < wires.size(); ++i) {
       const WireCapture& wire = wires[i];

@@ -235,7 +235,7 @@ FrameCertificate Certifier::Certify(const Frame& frame,
   StrataCounter counter;
   for (std::size_t cell = 0; cell < kinds.size(); ++cell) {
     if (region == nullptr || region->cells[cell])
-      counter.Count(frame.label[cell * frame.returns], kinds[cell]);
+      counter.Count(frame.label[std::size_t{cell} * frame.returns], kinds[cell]);
   }
   FrameCertificate certificate{counter.Strata(), {}};
   double per_scatter = probability_per_scatter_;
@@ -258,7 +258,7 @@ FrameCertificate Certifier::Certify(const Frame& frame,
        draw = draws.Next()) {
     const auto cell = static_cast<std::uint32_t>(draw.cell);
     if (region != nullptr && !region->cells[cell]) continue;
-    const Stratum stratum = StratumOf(frame.label[cell * frame.returns], kinds[cell]);
+    const Stratum stratum = StratumOf(frame.label[std::size_t{cell} * frame.returns], kinds[cell]);
     const auto at =
         std::ranges::find(certificate.strata, stratum, [](const Stratum& each) { return each; });
     if (draw.number * most >= at->probability) continue;

@@ -109,8 +109,10 @@ At128Correction::At128Correction(std::span<const char> bytes) {
     std::copy_n(place, shifts->size(), shifts->begin());
     // Those of real units are below 1 deg.
     constexpr int kMost_deg = 5;
-    for (const int shift : *shifts) {
-      if (resolution * std::abs(shift) <= kMost_deg * static_cast<int>(kShiftsPerDeg)) continue;
+    for (const auto shift : *shifts) {
+      if (resolution * std::abs(static_cast<int>(shift)) <=
+          kMost_deg * static_cast<int>(kShiftsPerDeg))
+        continue;
       throw InputError("shifts of lasers must be within 5 deg" +
                        Got(resolution * shift / kShiftsPerDeg));
     }

@@ -60,8 +60,9 @@ bool ParseLine(std::string_view line,
   }
   bool good = true;
   for (std::size_t i = 0; i < num_columns; ++i) {
-    const char* const end = cells[i].data() + cells[i].size();
-    const auto [stop, error] = std::from_chars(cells[i].data(), end, values[i]);
+    const char* const begin = cells[i].data();
+    const char* const end = begin + cells[i].size();
+    const auto [stop, error] = std::from_chars(begin, end, values[i]);
     if (error == std::errc() && stop == end && std::isfinite(values[i])) continue;
     const char* const rule =
         error == std::errc() && stop == end ? "must be finite" : "not a number";

@@ -157,6 +157,7 @@ void Describe(Archive& a, PersonSpec& s) {
   a.Optional("luggage", s.luggage, "What it pulls or pushes.");
 }
 
+// NOLINTNEXTLINE(readability-function-size): a table
 void Describe(Archive& a, ObjectSpec& s) {
   a.Required("name", s.name, "Unique.", NonEmptyString());
   a.Required("type", s.type, "What it is.");

@@ -150,10 +150,10 @@ std::optional<fs::path> JsonSource::FileNamedBy(const Node& node) {
     return std::nullopt;
   }
   const auto given = node.json->get<std::string>();
-  const std::string shipped = is_shipped_ ? std::string(kShippedPrefix) + given : given;
+  std::string shipped = is_shipped_ ? std::string(kShippedPrefix) + given : given;
   if (ShippedFile(shipped)) return shipped;
   const fs::path name = given;
-  const fs::path absolute = (node.file->absolute.parent_path() / name).lexically_normal();
+  fs::path absolute = (node.file->absolute.parent_path() / name).lexically_normal();
   if (const std::string obstacle = Obstacle(absolute); !obstacle.empty()) {
     Fault(node, obstacle);
     return std::nullopt;

@@ -88,7 +88,7 @@ std::uint32_t NumSpots(const CoverSpec& cover, double coverage, double diameter_
   return static_cast<std::uint32_t>(std::lround(std::log1p(-coverage) / std::log1p(-share_of_one)));
 }
 
-SpotLayer::SpotLayer(std::vector<Center> centers, double spot_chord, double aperture_chord)
+SpotLayer::SpotLayer(const std::vector<Center>& centers, double spot_chord, double aperture_chord)
     : spot_chord_(static_cast<float>(spot_chord)),
       aperture_chord_(static_cast<float>(aperture_chord)) {
   // A spot that touches an aperture is in the same cell as the aperture's centre or beside it.
@@ -96,10 +96,10 @@ SpotLayer::SpotLayer(std::vector<Center> centers, double spot_chord, double aper
   num_cells_ = static_cast<int>(
       std::clamp(std::floor(2.0 / (spot_chord + aperture_chord)), 1.0, kMostCells));
   const auto cell_of = [&](const Center& center) {
-    return static_cast<std::size_t>(
-        (CellAt(center[2]) * num_cells_ + CellAt(center[1])) * num_cells_ + CellAt(center[0]));
+    return RowAt(CellAt(center[2]), CellAt(center[1])) +
+           static_cast<std::size_t>(CellAt(center[0]));
   };
-  begin_.assign(static_cast<std::size_t>(num_cells_ * num_cells_ * num_cells_) + 1, 0);
+  begin_.assign(RowAt(num_cells_, 0) + 1, 0);
   for (const Center& center : centers) ++begin_[cell_of(center) + 1];
   for (std::size_t cell = 1; cell < begin_.size(); ++cell) begin_[cell] += begin_[cell - 1];
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
@@ -110,6 +110,11 @@ SpotLayer::SpotLayer(std::vector<Center> centers, double spot_chord, double aper
 int SpotLayer::CellAt(float coordinate) const {
   const float cell = 0.5F * (coordinate + 1.0F) * static_cast<float>(num_cells_);
   return std::clamp(static_cast<int>(cell), 0, num_cells_ - 1);
+}
+
+std::size_t SpotLayer::RowAt(int z, int y) const {
+  const auto num_cells = static_cast<std::size_t>(num_cells_);
+  return (static_cast<std::size_t>(z) * num_cells + static_cast<std::size_t>(y)) * num_cells;
 }
 
 float SpotLayer::FreeShare(const Center& direction) const {
@@ -124,7 +129,7 @@ float SpotLayer::FreeShare(const Center& direction) const {
   };
   for (int z = first(2); z <= last(2); ++z) {
     for (int y = first(1); y <= last(1); ++y) {
-      const auto row = static_cast<std::size_t>((z * num_cells_ + y) * num_cells_);
+      const auto row = RowAt(z, y);
       const std::uint32_t end = begin_[row + static_cast<std::size_t>(last(0)) + 1];
       for (std::uint32_t i = begin_[row + static_cast<std::size_t>(first(0))]; i < end; ++i) {
         const Center& center = centers_[i];

@@ -19,7 +19,7 @@ class SpotLayer {
 
   SpotLayer() = default;
   /// @param centers Unit vectors.
-  SpotLayer(std::vector<Center> centers, double spot_chord, double aperture_chord);
+  SpotLayer(const std::vector<Center>& centers, double spot_chord, double aperture_chord);
 
   /// The share of the aperture around a direction that no spot covers. Spots cover independent
   /// parts: two that cover a half each leave a quarter.
@@ -27,6 +27,8 @@ class SpotLayer {
 
  private:
   [[nodiscard]] int CellAt(float coordinate) const;
+  /// The first cell of a row.
+  [[nodiscard]] std::size_t RowAt(int z, int y) const;
 
   float spot_chord_{};
   float aperture_chord_{};

@@ -121,7 +121,9 @@ FogProfile FogProfileOf(const DetectorSpec& spec) {
   FogProfile profile;
   profile.gate_m = std::max(gate_m, reach_m / static_cast<double>(kMostFogGates - 2));
   // One gate more on either side than is seen, with which the others are compared.
-  const auto gate_at = [&](double r) { return static_cast<std::size_t>(r / profile.gate_m + 0.5); };
+  const auto gate_at = [&](double r) {
+    return static_cast<std::size_t>(std::lround(r / profile.gate_m));
+  };
   profile.first_gate = gate_at(begin_m) - std::min<std::size_t>(gate_at(begin_m), 2);
   const std::size_t end = gate_at(reach_m) + 1;
   for (std::size_t k = profile.first_gate; k < end; ++k) {

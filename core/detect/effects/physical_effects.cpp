@@ -243,6 +243,7 @@ std::string DeadTimeText(const DetectorSpec& spec) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-size): a table
 std::vector<Effect> PhysicalEffects() {
   const std::vector<Fidelity> from_surface_on{Fidelity::kSurface, Fidelity::kFootprint,
                                               Fidelity::kReference};

@@ -155,6 +155,7 @@ std::string EdgeLossText(const DetectorSpec& spec) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-size): a table
 std::vector<Effect> SensorEffects() {
   const std::vector<Fidelity> physical{Fidelity::kSurface, Fidelity::kFootprint,
                                        Fidelity::kReference};

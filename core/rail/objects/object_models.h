@@ -57,7 +57,7 @@ namespace railcast {
 class ObjectModels {
  public:
   ObjectModels(RailSurfaces surfaces, const LabelTable& labels, const MaterialLibrary& materials)
-      : surfaces_(std::move(surfaces)), labels_(labels), materials_(materials) {}
+      : surfaces_(surfaces), labels_(labels), materials_(materials) {}
 
   using Pieces = std::vector<std::shared_ptr<const Model>>;
 

@@ -65,7 +65,7 @@ std::optional<StripWidth> DraftStripWidth(const WorldSpec& world,
                                           const NetworkDraft& network,
                                           WorldFaults& faults) {
   if (!alignment || !faults.AreKnown({"/world/terrain/half_width_m"})) return std::nullopt;
-  const StripWidth width(*alignment, world.terrain.half_width_m);
+  StripWidth width(*alignment, world.terrain.half_width_m);
   for (std::size_t i = 0; width.narrows() && i < world.tracks.size(); ++i) {
     const std::string place = TrackPointer(i) + "/offset_m";
     const std::optional<TrackCourse>& course = network.courses[i];
@@ -160,6 +160,20 @@ void DraftObjects(const TracksOfWorld& tracks,
   }
 }
 
+RailSurfaces SurfacesOf(const WorldSource& source, const NetworkDraft& network) {
+  RailSurfaces surfaces(source.labels, source.materials);
+  if (source.world.vegetation.bushes_per_hectare > 0.0) {
+    surfaces.AddBushSurfaces(source.labels, source.materials);
+  }
+  if (!source.world.structures.empty()) {
+    surfaces.AddStructureSurfaces(source.labels, source.materials);
+  }
+  if (!network.turnouts.empty() || !network.diamonds.empty()) {
+    surfaces.AddTurnoutSurfaces(source.labels, source.materials);
+  }
+  return surfaces;
+}
+
 }  // namespace
 
 WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
@@ -188,19 +202,7 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
   CheckWorld(world, source.vehicle, {line, draft.network.courses}, faults);
   CheckNetwork(world, draft.network, draft.alignment, faults);
   if (faults.AreKnown({"/labels", "/materials"})) {
-    draft.surfaces = Attempt("", faults.errors, [&] {
-      RailSurfaces surfaces(source.labels, source.materials);
-      if (world.vegetation.bushes_per_hectare > 0.0) {
-        surfaces.AddBushSurfaces(source.labels, source.materials);
-      }
-      if (!world.structures.empty()) {
-        surfaces.AddStructureSurfaces(source.labels, source.materials);
-      }
-      if (!draft.network.turnouts.empty() || !draft.network.diamonds.empty()) {
-        surfaces.AddTurnoutSurfaces(source.labels, source.materials);
-      }
-      return surfaces;
-    });
+    draft.surfaces = Attempt("", faults.errors, [&] { return SurfacesOf(source, draft.network); });
     if (!source.vehicle.ego_boxes_m.empty() || !source.vehicle.consist.empty()) {
       Attempt("", faults.errors, [&] { return source.labels.Id("ego"); });
     }
