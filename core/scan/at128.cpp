@@ -110,9 +110,8 @@ At128Correction::At128Correction(std::span<const char> bytes) {
     // Those of real units are below 1 deg.
     constexpr int kMost_deg = 5;
     for (const auto shift : *shifts) {
-      if (resolution * std::abs(static_cast<int>(shift)) <=
-          kMost_deg * static_cast<int>(kShiftsPerDeg))
-        continue;
+      const int size = std::abs(static_cast<int>(shift));
+      if (resolution * size <= kMost_deg * static_cast<int>(kShiftsPerDeg)) continue;
       throw InputError("shifts of lasers must be within 5 deg" +
                        Got(resolution * shift / kShiftsPerDeg));
     }

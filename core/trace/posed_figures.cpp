@@ -109,12 +109,13 @@ void PosedFigures::IntersectRays(const RTCIntersectFunctionNArguments* args) {
   const auto& self = *static_cast<const PosedFigures*>(args->geometryUserPtr);
   RTCRayN* const rays = RTCRayHitN_RayN(args->rayhit, args->N);
   RTCHitN* const hits = RTCRayHitN_HitN(args->rayhit, args->N);
+  const SlabBox box(self.figures()[args->primID].window_box_m);
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0) continue;
     RTCRayHit ray = rtcGetRayHitFromRayHitN(args->rayhit, args->N, i);
     const Probe probe(ray.ray);
     // Embree asks whether any ray of a packet comes into the box.
-    if (!probe.MayMeet(SlabBox(self.figures()[args->primID].window_box_m), ray.ray.tfar)) continue;
+    if (!probe.MayMeet(box, ray.ray.tfar)) continue;
     if (!self.Intersect(args->primID, probe, static_cast<RayQueryContext&>(*args->context), ray)) {
       continue;
     }
