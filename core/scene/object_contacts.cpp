@@ -1,7 +1,6 @@
 #include "core/scene/object_contacts.h"
 
 #include <algorithm>
-#include <unsupported/Eigen/BVH>
 #include <utility>
 
 #include "core/scene/convex_body.h"
@@ -22,24 +21,30 @@ struct NearBody {
   Eigen::AlignedBox3d box_m;
 };
 
-/// For Eigen's tree of boxes, which finds it by its name.
-Eigen::AlignedBox3d bounding_box(const NearBody& body) {
-  return body.box_m;
-}
-
-/// Returns the bodies whose boxes meet an area.
+/// Returns the bodies whose boxes meet an area, placed in the area's frame.
 std::vector<NearBody> BodiesWithin(const Eigen::AlignedBox3d& area_m,
                                    const std::vector<Piece>& pieces,
                                    const Transform& area_from_pieces) {
+  // Most bodies lie apart from the area in their own frame, too, where they need not be placed.
+  const Eigen::AlignedBox3d among_pieces_m = area_m.transformed(area_from_pieces.inverse());
   std::vector<NearBody> near;
   for (const Piece& piece : pieces) {
-    if (!area_m.intersects(piece.box_m.transformed(area_from_pieces))) continue;
+    if (!among_pieces_m.intersects(piece.box_m)) continue;
     for (const ConvexBody& body : piece.bodies) {
+      if (!among_pieces_m.intersects(body.box_m)) continue;
       const Eigen::AlignedBox3d box_m = body.box_m.transformed(area_from_pieces);
       if (area_m.intersects(box_m)) near.push_back({&body, box_m});
     }
   }
   return near;
+}
+
+/// Leaves only those bodies whose boxes come near the box around others.
+void KeepNear(const std::vector<NearBody>& others, std::vector<NearBody>& bodies) {
+  Eigen::AlignedBox3d around_m;
+  for (const NearBody& other : others) around_m.extend(other.box_m);
+  around_m = Widened(around_m, kTouch_m);
+  std::erase_if(bodies, [&](const NearBody& body) { return !around_m.intersects(body.box_m); });
 }
 
 /// The shortest move that parts two boxes that meet, along their common axes: an upper limit of the
@@ -48,38 +53,31 @@ double DepthOfBoxes_m(const Eigen::AlignedBox3d& one, const Eigen::AlignedBox3d&
   return (one.max() - other.min()).cwiseMin(other.max() - one.min()).minCoeff();
 }
 
-/// Visits those bodies in a tree whose boxes come near a body, and keeps the smallest gap.
-class NearestOf {
- public:
-  NearestOf(const Transform& one_from_other, double least_m)
-      : one_from_other_(one_from_other), least_m_(least_m) {}
-
-  void Begin(const NearBody& one) {
-    one_ = &one;
-    reach_m_ = Widened(one.box_m, kTouch_m);
+/// The smallest gap between bodies of two objects, at most kApart_m; negative where they are in
+/// each other.
+double LeastGap_m(const std::vector<NearBody>& of_one,
+                  const Transform& one_from_other,
+                  std::vector<NearBody> of_other) {
+  // Sorted along an axis, so that pieces with thousands of triangles need not all be compared.
+  const auto begin_m = [](const NearBody& body) { return body.box_m.min().x(); };
+  std::ranges::sort(of_other, {}, begin_m);
+  double longest_m = 0.0;
+  for (const NearBody& other : of_other) longest_m = std::max(longest_m, other.box_m.sizes().x());
+  double least_m = kApart_m;
+  for (const NearBody& one : of_one) {
+    const Eigen::AlignedBox3d reach_m = Widened(one.box_m, kTouch_m);
+    auto other = std::ranges::lower_bound(of_other, reach_m.min().x() - longest_m, {}, begin_m);
+    for (; other != of_other.end() && begin_m(*other) <= reach_m.max().x(); ++other) {
+      if (!reach_m.intersects(other->box_m)) continue;
+      if (-DepthOfBoxes_m(one.box_m, other->box_m) >= least_m) continue;
+      const double gap_m = Gap_m(*one.body, one_from_other, *other->body, kApart_m);
+      least_m = gap_m > 0.0
+                    ? std::min(least_m, gap_m)
+                    : -Depth_m(*one.body, one_from_other, *other->body, std::max(0.0, -least_m));
+    }
   }
-  // NOLINTBEGIN(readability-identifier-naming): names that Eigen asks for
-  bool intersectVolume(const Eigen::AlignedBox3d& box_m) const {
-    return reach_m_.intersects(box_m);
-  }
-  bool intersectObject(const NearBody& other) {
-    constexpr bool kGoOn = false;
-    if (-DepthOfBoxes_m(one_->box_m, other.box_m) >= least_m_) return kGoOn;
-    const double gap_m = Gap_m(*one_->body, one_from_other_, *other.body, kApart_m);
-    least_m_ = gap_m > 0.0
-                   ? std::min(least_m_, gap_m)
-                   : -Depth_m(*one_->body, one_from_other_, *other.body, std::max(0.0, -least_m_));
-    return kGoOn;
-  }
-  // NOLINTEND(readability-identifier-naming)
-  [[nodiscard]] double least_m() const { return least_m_; }
-
- private:
-  const Transform& one_from_other_;
-  const NearBody* one_ = nullptr;
-  Eigen::AlignedBox3d reach_m_;
-  double least_m_;
-};
+  return least_m;
+}
 
 /// Rounds a pose to steps in which two coupled wagons of a running train keep theirs: what is found
 /// for one moment then holds for others, and does not depend on which of them came first.
@@ -235,16 +233,12 @@ std::optional<double> ContactFinder::GapOfPieces_m(const Pair& pair,
       Widened(bounds_m_[pair.first], kTouch_m)
           .intersection(Widened(bounds_m_[pair.second], kTouch_m).transformed(one_from_other));
   if (area_m.isEmpty()) return std::nullopt;
-  const auto of_one = BodiesWithin(area_m, PiecesOfObject(pair.first), Transform::Identity());
-  const auto of_other = BodiesWithin(area_m, PiecesOfObject(pair.second), one_from_other);
-  // Pieces with thousands of triangles are compared in n log n.
-  const Eigen::KdBVH<double, 3, NearBody> tree(of_other.begin(), of_other.end());
-  NearestOf nearest(one_from_other, kApart_m);
-  for (const NearBody& body : of_one) {
-    nearest.Begin(body);
-    Eigen::BVIntersect(tree, nearest);
-  }
-  return nearest.least_m() <= kTouch_m ? std::optional(nearest.least_m()) : std::nullopt;
+  auto of_one = BodiesWithin(area_m, PiecesOfObject(pair.first), Transform::Identity());
+  auto of_other = BodiesWithin(area_m, PiecesOfObject(pair.second), one_from_other);
+  KeepNear(of_one, of_other);
+  KeepNear(of_other, of_one);
+  const double least_m = LeastGap_m(of_one, one_from_other, std::move(of_other));
+  return least_m <= kTouch_m ? std::optional(least_m) : std::nullopt;
 }
 
 const std::vector<Piece>& ContactFinder::PiecesOfObject(std::size_t object) {
