@@ -79,10 +79,6 @@ class Certifier {
   [[nodiscard]] const std::vector<RungBeside>& rungs() const { return rungs_; }
   /// About how many firings of a frame are drawn.
   [[nodiscard]] double num_expected() const { return num_expected_; }
-  /// With which each firing of a stratum is drawn.
-  [[nodiscard]] double ProbabilityOf(const Stratum& stratum) const {
-    return std::min(ScatterOf(stratum) * probability_per_scatter_, 1.0);
-  }
 
  private:
   /// The standard deviation of what is wrong with its firings, as experience says.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "core/base/units.h"
 #include "core/detect/base/beam_optics.h"
@@ -15,12 +16,6 @@ namespace {
 // Between so near instants things move straight on, within kStraightness_m.
 constexpr std::uint32_t kStep_ns = 5'000'000;
 constexpr double kStraightness_m = 0.02;
-
-/// A sphere around an object in the sensor's axes, at every step of the frame.
-struct MovingSphere {
-  double radius_m{};
-  std::vector<Vector3> centers_m{};
-};
 
 MovingSphere SphereOf(const World& world,
                       std::size_t object,
@@ -37,11 +32,11 @@ MovingSphere SphereOf(const World& world,
   return sphere;
 }
 
-bool MayMeet(const MovingSphere& sphere,
-             const Vector3& origin_m,
-             const Vector3& direction,
-             std::uint32_t time_ns,
-             double beside_rad) {
+bool MeetsSphere(const MovingSphere& sphere,
+                 const Vector3& origin_m,
+                 const Vector3& direction,
+                 std::uint32_t time_ns,
+                 double beside_rad) {
   const std::size_t step = time_ns / kStep_ns;
   const double part = static_cast<double>(time_ns % kStep_ns) / kStep_ns;
   const Vector3 to_center_m = sphere.centers_m[step] +
@@ -73,37 +68,47 @@ double BesideBeam_rad(const DetectorSpec& detector) {
   return 1.1 * beside_rad + 1e-4;
 }
 
-std::vector<bool> BeamsNearObjects(const World& world,
-                                   std::span<const std::size_t> objects,
-                                   const ScanPattern& pattern,
-                                   const BeamReach& reach,
-                                   std::optional<std::span<const std::uint32_t>> among) {
-  std::vector<bool> is_near(pattern.num_firings());
-  if (is_near.empty()) return is_near;
+NearObjects::NearObjects(const World& world,
+                         std::span<const std::size_t> objects,
+                         const ScanPattern& pattern,
+                         const BeamReach& reach)
+    : pattern_(pattern) {
+  if (pattern.num_firings() == 0) return;
   const std::uint32_t duration_ns = *std::ranges::max_element(pattern.time_ns);
-  const std::size_t num = among ? among->size() : is_near.size();
   for (const std::size_t object : objects) {
     if (world.objects()[object].is_ego) continue;
-    const MovingSphere sphere = SphereOf(world, object, reach, duration_ns);
+    MovingSphere sphere = SphereOf(world, object, reach, duration_ns);
     const bool is_far = std::ranges::all_of(sphere.centers_m, [&](const Vector3& center_m) {
       return center_m.norm() > reach.range_max_m + sphere.radius_m + 1.0;
     });
-    if (is_far) continue;
-    for (std::size_t k = 0; k < num; ++k) {
-      const std::size_t i = among ? (*among)[k] : k;
-      if (is_near[i]) continue;
-      const Vector3 direction(static_cast<double>(pattern.direction_x[i]),
-                              static_cast<double>(pattern.direction_y[i]),
-                              static_cast<double>(pattern.direction_z[i]));
-      Vector3 origin_m = Vector3::Zero();
-      if (!pattern.origin_x_m.empty()) {
-        origin_m = Vector3(static_cast<double>(pattern.origin_x_m[i]),
-                           static_cast<double>(pattern.origin_y_m[i]),
-                           static_cast<double>(pattern.origin_z_m[i]));
-      }
-      is_near[i] = MayMeet(sphere, origin_m, direction, pattern.time_ns[i], reach.beside_rad);
-    }
+    if (!is_far) spheres_.push_back(std::move(sphere));
   }
+}
+
+bool NearObjects::MayMeet(std::size_t firing, double beside_rad) const {
+  const Vector3 direction(static_cast<double>(pattern_.direction_x[firing]),
+                          static_cast<double>(pattern_.direction_y[firing]),
+                          static_cast<double>(pattern_.direction_z[firing]));
+  Vector3 origin_m = Vector3::Zero();
+  if (!pattern_.origin_x_m.empty()) {
+    origin_m = Vector3(static_cast<double>(pattern_.origin_x_m[firing]),
+                       static_cast<double>(pattern_.origin_y_m[firing]),
+                       static_cast<double>(pattern_.origin_z_m[firing]));
+  }
+  return std::ranges::any_of(spheres_, [&](const MovingSphere& sphere) {
+    return MeetsSphere(sphere, origin_m, direction, pattern_.time_ns[firing], beside_rad);
+  });
+}
+
+std::vector<bool> NearObjects::Beams(double beside_rad,
+                                     std::optional<std::span<const std::uint32_t>> among) const {
+  std::vector<bool> is_near(pattern_.num_firings());
+  if (spheres_.empty()) return is_near;
+  if (among) {
+    for (const std::uint32_t firing : *among) is_near[firing] = MayMeet(firing, beside_rad);
+    return is_near;
+  }
+  for (std::size_t i = 0; i < is_near.size(); ++i) is_near[i] = MayMeet(i, beside_rad);
   return is_near;
 }
 

@@ -13,27 +13,49 @@
 
 namespace railcast {
 
-/// Where beams are during a frame, and how far beside their directions they reach.
+/// Where the beams of a frame come from, and how far they reach.
 struct BeamReach {
   std::int64_t stamp_ns{};
   Transform vehicle_from_sensor = Transform::Identity();
-  double beside_rad{};  ///< Half the width of a beam, and by how much it may be aimed wrong.
   double range_max_m{};
 };
 
-/// BeamReach::beside_rad of a sensor.
+/// Half the width of a sensor's beam, and by how much it may be aimed wrong.
 [[nodiscard]] double BesideBeam_rad(const DetectorSpec& detector);
 
-/// For each firing of a pattern, whether its beam may meet one of some objects: all that do are
-/// among them, and some that do not. Those of the vehicle itself are left out.
-/// @param objects Indices into world.objects().
-/// @param among The firings of those of a wider reach, beside which there are none; absent if they
-///   are not known.
-[[nodiscard]] std::vector<bool> BeamsNearObjects(
-    const World& world,
-    std::span<const std::size_t> objects,
-    const ScanPattern& pattern,
-    const BeamReach& reach,
-    std::optional<std::span<const std::uint32_t>> among = {});
+/// A sphere around an object in the sensor's axes, at every step of a frame.
+struct MovingSphere {
+  double radius_m{};
+  std::vector<Vector3> centers_m{};
+};
+
+/// Some objects of a world, as the beams of one frame may meet them. Those of the vehicle itself
+/// are left out.
+///
+///     const NearObjects near(world, objects, pattern, reach);
+///     const std::vector<bool> may_meet = near.Beams(BesideBeam_rad(detector));
+class NearObjects {
+ public:
+  /// @param objects Indices into world.objects().
+  /// @param pattern Must outlive this.
+  NearObjects(const World& world,
+              std::span<const std::size_t> objects,
+              const ScanPattern& pattern,
+              const BeamReach& reach);
+
+  /// For each firing of the pattern, whether its beam may meet one of the objects: all that do are
+  /// among them, and some that do not.
+  /// @param beside_rad As BesideBeam_rad().
+  /// @param among The firings of those of a wider beam, beside which there are none; absent if they
+  ///   are not known.
+  [[nodiscard]] std::vector<bool> Beams(
+      double beside_rad, std::optional<std::span<const std::uint32_t>> among = {}) const;
+
+ private:
+  [[nodiscard]] bool MayMeet(std::size_t firing, double beside_rad) const;
+
+  const ScanPattern& pattern_;
+  std::vector<MovingSphere> spheres_;
+};
 
 }  // namespace railcast

@@ -37,10 +37,9 @@ void ClearSlots(Frame& frame) {
   std::ranges::fill(frame.return_count, std::uint8_t{0});
 }
 
-BeamReach ReachInFrame(const SimulatorSpec& spec, std::int64_t stamp_ns, double beside_rad) {
+BeamReach ReachInFrame(const SimulatorSpec& spec, std::int64_t stamp_ns) {
   return {.stamp_ns = stamp_ns,
           .vehicle_from_sensor = spec.vehicle_from_sensor * spec.nominal_from_true,
-          .beside_rad = beside_rad,
           .range_max_m = spec.detector.range_max_m};
 }
 
@@ -56,9 +55,8 @@ void Simulator::ScanNearObjects(BegunFrame& begun,
     const ScanPattern of_frame =
         parts.pattern.repeats() ? ScanPattern() : PatternOfFrame(parts.pattern, begun.index);
     const ScanPattern& pattern = parts.pattern.repeats() ? parts.pattern : of_frame;
-    const std::vector<bool> is_near = BeamsNearObjects(
-        world(), objects, pattern,
-        ReachInFrame(parts.spec, begun.stamp_ns, BesideBeam_rad(parts.spec.detector)));
+    const NearObjects near(world(), objects, pattern, ReachInFrame(parts.spec, begun.stamp_ns));
+    const std::vector<bool> is_near = near.Beams(BesideBeam_rad(parts.spec.detector));
     const FiringTiles& all = parts.TilesOf(begun);
     frame.has_velocity = parts.spec.detector.velocity.has_value();
     parts.Prepare(begun.index, all, frame);
@@ -86,8 +84,8 @@ std::vector<bool> Simulator::FiringsNearObjects(BegunFrame& begun,
     const ScanPattern of_frame =
         parts.pattern.repeats() ? ScanPattern() : PatternOfFrame(parts.pattern, begun.index);
     const ScanPattern& pattern = parts.pattern.repeats() ? parts.pattern : of_frame;
-    const std::vector<bool> is_near = BeamsNearObjects(
-        world(), objects, pattern, ReachInFrame(parts.spec, begun.stamp_ns, beside_rad));
+    const NearObjects near(world(), objects, pattern, ReachInFrame(parts.spec, begun.stamp_ns));
+    const std::vector<bool> is_near = near.Beams(beside_rad);
     std::vector<bool> by_cell(std::size_t{pattern.rows} * pattern.columns);
     for (std::size_t i = 0; i < is_near.size(); ++i) {
       by_cell[pattern.row[i] * pattern.columns + pattern.column[i]] = is_near[i];

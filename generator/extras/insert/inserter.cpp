@@ -60,21 +60,17 @@ struct RecordedReturns {
   std::vector<float> power_kept{};  ///< Of the recorded power, by return; 1 where none is recorded.
 };
 
-bool IsPowerKnown(const RecordedFrame& recorded, std::size_t slot) {
-  return recorded.Has("power_ratio") && recorded.frame.power_ratio[slot] > 0.0F;
-}
-
 // The intensity with which a return stands for the power that the receiver has met: less than that
 // of the surface where this slants through the beam. The power itself, where it was recorded.
 float IntensityAt(const RecordedFirings& firings,
                   const DetectorSpec& detector,
                   const IntensityScale& scale,
                   std::size_t firing,
-                  std::size_t slot) {
-  const RecordedFrame& recorded = firings.recorded;
-  const Frame& frame = recorded.frame;
+                  std::size_t slot,
+                  bool is_power_known) {
+  const Frame& frame = firings.recorded.frame;
   const float by_power = frame.power_ratio[slot] * LeastIntensity(detector, frame.range_m[slot]);
-  if (IsPowerKnown(recorded, slot) && by_power > 0.0F) return by_power;
+  if (is_power_known && by_power > 0.0F) return by_power;
   const auto stored = static_cast<double>(frame.intensity[slot]);
   const double intensity = (stored == 0.0 ? scale.of_zero : stored) / scale.per_reflectance;
   const float reflectance = intensity >= 0.0 ? static_cast<float>(intensity) : kUsualReflectance;
@@ -87,6 +83,7 @@ RecordedReturns ReturnsIn(const RecordedFirings& firings,
                           const IntensityScale& scale) {
   const Frame& frame = firings.recorded.frame;
   const ScanPattern& pattern = firings.pattern;
+  const bool has_powers = firings.recorded.Has("power_ratio");
   RecordedReturns returns;
   for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
     const std::size_t cell = std::size_t{pattern.row[i]} * pattern.columns + pattern.column[i];
@@ -94,10 +91,12 @@ RecordedReturns ReturnsIn(const RecordedFirings& firings,
       const std::size_t slot = firings.SlotOfCell(cell) + r;
       if (!HasReturn(frame, slot)) continue;
       const Vector3 from_origin_m = RecordedPoint_m(firings.recorded, slot) - OriginOf(pattern, i);
-      returns.screens.push_back({.range_m = static_cast<float>(from_origin_m.norm()),
-                                 .intensity = IntensityAt(firings, detector, scale, i, slot),
-                                 .is_power_known = IsPowerKnown(firings.recorded, slot),
-                                 .share = BeamShareAt(firings, i, slot)});
+      const bool is_known = has_powers && frame.power_ratio[slot] > 0.0F;
+      returns.screens.push_back(
+          {.range_m = static_cast<float>(from_origin_m.norm()),
+           .intensity = IntensityAt(firings, detector, scale, i, slot, is_known),
+           .is_power_known = is_known,
+           .share = BeamShareAt(firings, i, slot)});
       returns.slots.push_back(static_cast<std::uint32_t>(slot));
     }
     returns.first.push_back(static_cast<std::uint32_t>(returns.screens.size()));

@@ -64,17 +64,17 @@ float LeastIntensity(const DetectorSpec& detector, float range_m) {
 }
 
 Screens MakeScreens(const DetectorSpec& detector,
-                    std::vector<std::uint32_t> first,
-                    std::vector<Screen> returns,
+                    FewReturns few,
                     std::uint16_t first_material,
                     ScreenSurfaces& surfaces) {
+  auto& [firings, first, returns] = few;
   const bool has_footprint = HasFootprint(detector);
   const bool is_physical = IsPhysical(detector.effects);
   // What lies outside the gate was returned all the same.
   const auto nearest_m = static_cast<float>(detector.range_min_m * 1.0001);
   const auto farthest_m = static_cast<float>(detector.range_max_m * 0.9999);
   surfaces.first = static_cast<std::uint32_t>(surfaces.all.size());
-  for (std::size_t firing = 0; firing + 1 < first.size(); ++firing) {
+  for (const std::uint32_t firing : firings) {
     const std::span<Screen> of(returns.data() + first[firing], first[firing + 1] - first[firing]);
     if (of.empty()) continue;
     for (Screen& screen : of) {

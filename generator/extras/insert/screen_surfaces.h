@@ -25,12 +25,17 @@ struct ScreenSurfaces {
   std::vector<float> alone;  ///< By screen, the intensity of its echo if nothing is beside it.
 };
 
+/// The recorded returns of some of a frame's firings.
+struct FewReturns {
+  std::vector<std::uint32_t> firings;  ///< In ascending order.
+  std::vector<std::uint32_t> first;    ///< As of Screens; all others have none.
+  std::vector<Screen> returns{};
+};
+
 /// Makes screens of recorded returns, and surfaces for them.
-/// @param first As of Screens.
 /// @param first_material The index of the first material of screens.
 [[nodiscard]] Screens MakeScreens(const DetectorSpec& detector,
-                                  std::vector<std::uint32_t> first,
-                                  std::vector<Screen> returns,
+                                  FewReturns few,
                                   std::uint16_t first_material,
                                   ScreenSurfaces& surfaces);
 

@@ -102,7 +102,9 @@ ScreenedCertifier::ScreenedCertifier(const ScenarioSpec& scenario,
       cost_of_others_(kInstructionsOfEditing /
                       InstructionsPerFiring(own.effects, scenario.lidar.beam)) {}
 
-void ScreenedCertifier::FillGrid(const RecordedScan& recorded, const ScreenedFrame& made) {
+void ScreenedCertifier::FillGrid(const RecordedScan& recorded,
+                                 const ScreenedFrame& made,
+                                 std::span<const std::uint32_t> near) {
   const ScanPattern& pattern = recorded.pattern;
   grid_.index = recorded.index;
   grid_.Resize(pattern.rows, pattern.columns, 1);
@@ -111,7 +113,7 @@ void ScreenedCertifier::FillGrid(const RecordedScan& recorded, const ScreenedFra
   std::ranges::fill(grid_.true_range_m, kNoRange_m);
   std::ranges::fill(grid_.mixed_share, 0.0F);
   std::ranges::fill(grid_.outcome, Outcome::kNoSurface);
-  for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
+  for (const std::uint32_t i : near) {
     if (recorded.first[i] < recorded.first[i + 1]) {
       grid_.outcome[CellOf(pattern, i)] = Outcome::kReturned;
     }
@@ -134,7 +136,7 @@ FrameCertificate ScreenedCertifier::Certify(const RecordedScan& recorded,
                                             std::span<const std::uint32_t> near,
                                             const ScreenedScan::MakeAnew& make) {
   if (near.empty()) return {};
-  FillGrid(recorded, made);
+  FillGrid(recorded, made, near);
   const ScanPattern& pattern = recorded.pattern;
   CertifiedRegion region{.cells = std::vector<bool>(grid_.num_slots())};
   std::vector<std::uint32_t> firing_of(grid_.num_slots());

@@ -92,6 +92,36 @@ std::vector<std::uint32_t> Those(const std::vector<std::uint32_t>& order,
   return those;
 }
 
+FewReturns ReturnsOf(std::vector<std::uint32_t> firings, const RecordedScan& all) {
+  std::ranges::sort(firings);
+  FewReturns few{.firings = std::move(firings),
+                 .first = std::vector<std::uint32_t>(all.first.size())};
+  std::uint32_t next = 0;  // The first firing whose place is not known yet.
+  const auto fill_to = [&](std::size_t end) {
+    std::fill(few.first.begin() + next, few.first.begin() + static_cast<std::ptrdiff_t>(end),
+              static_cast<std::uint32_t>(few.returns.size()));
+  };
+  for (const std::uint32_t firing : few.firings) {
+    fill_to(firing + 1);
+    few.returns.insert(few.returns.end(), all.returns.begin() + all.first[firing],
+                       all.returns.begin() + all.first[firing + 1]);
+    next = firing + 1;
+  }
+  fill_to(few.first.size());
+  return few;
+}
+
+// From the numbers of some returns, which screens have, to those of all.
+void NumberAmongAll(const Screens& screens,
+                    const RecordedScan& all,
+                    std::vector<ChangedFiring>& changed) {
+  for (ChangedFiring& firing : changed) {
+    const std::uint32_t shift = all.first[firing.firing] - screens.first(firing.firing);
+    for (ReturnNow& now : firing.returns) now.screen += now.screen == kNoScreen ? 0 : shift;
+    for (LostReturn& lost : firing.lost) lost.screen += shift;
+  }
+}
+
 using WorkOfThreads = tbb::enumerable_thread_specific<BeamTracer::Work>;
 
 }  // namespace
@@ -155,19 +185,15 @@ struct ScreenedScan::Parts {
     for (Way& way : variants) use(way);
   }
 
-  [[nodiscard]] std::vector<bool> NearObjects(
-      const RecordedScan& recorded,
-      double beside_rad,
-      std::optional<std::span<const std::uint32_t>> among = {}) const {
+  [[nodiscard]] NearObjects ObjectsNear(const RecordedScan& recorded) const {
     std::vector<std::size_t> objects(scenes.world().objects().size());
     std::iota(objects.begin(), objects.end(), std::size_t{0});
-    return BeamsNearObjects(
-        scenes.world(), objects, recorded.pattern,
-        {.stamp_ns = recorded.stamp_ns,
-         .vehicle_from_sensor = own.spec.vehicle_from_sensor * own.spec.nominal_from_true,
-         .beside_rad = beside_rad,
-         .range_max_m = own.spec.detector.range_max_m},
-        among);
+    return {scenes.world(),
+            objects,
+            recorded.pattern,
+            {.stamp_ns = recorded.stamp_ns,
+             .vehicle_from_sensor = own.spec.vehicle_from_sensor * own.spec.nominal_from_true,
+             .range_max_m = own.spec.detector.range_max_m}};
   }
 
   [[nodiscard]] CastFrame CastOf(const Way& way,
@@ -252,12 +278,16 @@ struct ScreenedScan::Parts {
     ScreenedFrame frame;
     const auto& [recorded, scene, duration_ns, returns, order, is_near] = wanted;
     const DetectorSpec& detector = way.spec.detector;
+    const auto near = Those(order, [&](std::uint32_t firing) { return is_near[firing]; });
+    const bool makes_others = ChangesEmptyBeams(detector);
     ScreenSurfaces surfaces{.all = scene.surfaces(), .alone = {}};
-    const Screens screens =
-        MakeScreens(detector, recorded.first, recorded.returns, first_material, surfaces);
+    // Without the screens of all others, which take longer than the trace of a few.
+    const Screens screens = MakeScreens(detector, ReturnsOf(makes_others ? order : near, recorded),
+                                        first_material, surfaces);
     const CastFrame cast = CastOf(way, scene, surfaces.all, screens, duration_ns);
     const ReturnRule rule = RuleFor(detector, returns);
     const ScreenEchoes screen_echoes(detector, rule, cast, screens, surfaces);
+    std::vector<float> power_kept(surfaces.alone.size(), 1.0F);
     Job job{.way = way,
             .recorded = recorded,
             .cast = cast,
@@ -266,12 +296,10 @@ struct ScreenedScan::Parts {
             .velocities = {},
             .world_from_window = scene.window->window_from_world.inverse(),
             .changed = frame.firings,
-            .power_kept = frame.power_kept};
-    frame.power_kept.assign(recorded.returns.size(), 1.0F);
+            .power_kept = power_kept};
     if (cast.motion != nullptr) job.velocities.emplace(detector, cast);
-    const auto near = Those(order, [&](std::uint32_t firing) { return is_near[firing]; });
     Make(job, near, Kind::kTraced);
-    if (ChangesEmptyBeams(detector)) {
+    if (makes_others) {
       std::vector<bool> is_met(recorded.pattern.num_firings());
       for (const std::uint32_t firing : near) is_met[firing] = screens.met(firing) != 0;
       const auto make = [&](Kind kind, bool has_screens) {
@@ -286,42 +314,26 @@ struct ScreenedScan::Parts {
       make(Kind::kEmpty, false);
     }
     std::ranges::sort(frame.firings, {}, &ChangedFiring::firing);
+    NumberAmongAll(screens, recorded, frame.firings);
+    frame.power_kept.assign(recorded.returns.size(), 1.0F);
+    for (const std::uint32_t firing : makes_others ? order : near) {
+      std::copy_n(power_kept.begin() + screens.first(firing), screens.of(firing).size(),
+                  frame.power_kept.begin() + recorded.first[firing]);
+    }
     if (has_views) frame.views = ViewObjects(job, scene, near);
     return frame;
   }
 
   [[nodiscard]] std::vector<std::vector<ChangedFiring>> MakeAnew(
       const Wanted& wanted, const std::vector<bool>& is_wanted) {
-    const RecordedScan& all = wanted.recorded;
-    // Without the screens of all others, which take longer than the trace of a few.
-    RecordedScan few{.index = all.index,
-                     .stamp_ns = all.stamp_ns,
-                     .pattern = all.pattern,
-                     .first = {0},
-                     .returns = {}};
-    few.first.reserve(all.first.size());
-    for (std::size_t i = 0; i < is_wanted.size(); ++i) {
-      if (is_wanted[i]) {
-        few.returns.insert(few.returns.end(), all.returns.begin() + all.first[i],
-                           all.returns.begin() + all.first[i + 1]);
-      }
-      few.first.push_back(static_cast<std::uint32_t>(few.returns.size()));
-    }
-    const Wanted those{few,
+    const Wanted those{wanted.recorded,
                        wanted.scene,
                        wanted.duration_ns,
                        wanted.returns,
                        Those(wanted.order, [&](std::uint32_t firing) { return is_wanted[firing]; }),
                        is_wanted};
     std::vector<std::vector<ChangedFiring>> changed;
-    for (const Way& way : variants) {
-      changed.push_back(MakeFirings(way, those, false).firings);
-      for (ChangedFiring& firing : changed.back()) {
-        const std::uint32_t shift = all.first[firing.firing] - few.first[firing.firing];
-        for (ReturnNow& now : firing.returns) now.screen += now.screen == kNoScreen ? 0 : shift;
-        for (LostReturn& lost : firing.lost) lost.screen += shift;
-      }
-    }
+    for (const Way& way : variants) changed.push_back(MakeFirings(way, those, false).firings);
     return changed;
   }
   [[nodiscard]] std::vector<ObjectView> ViewObjects(const Job& job,
@@ -358,7 +370,8 @@ struct ScreenedScan::Parts {
         widest_rad = std::max(widest_rad, BesideBeam_rad(way.spec.detector));
       }
     }
-    std::vector<bool> is_near = NearObjects(recorded, widest_rad);
+    const NearObjects near = ObjectsNear(recorded);
+    std::vector<bool> is_near = near.Beams(widest_rad);
     std::vector<std::uint32_t> are_certified;
     if (certify) {
       for (std::uint32_t i = 0; i < is_near.size(); ++i) {
@@ -366,7 +379,7 @@ struct ScreenedScan::Parts {
       }
     }
     // The frame itself traces no others with them, which would move its rays by parts of 1e-7.
-    if (widest_rad > beside_rad) is_near = NearObjects(recorded, beside_rad, are_certified);
+    if (widest_rad > beside_rad) is_near = near.Beams(beside_rad, are_certified);
     const Wanted all{recorded, scene, duration_ns, returns, TracingOrder(pattern), is_near};
     ScreenedFrame frame = MakeFirings(own, all, true);
     if (certify) {

@@ -98,12 +98,14 @@ class ScreenedCertifier {
                                          const ScreenedScan::MakeAnew& make);
 
  private:
-  void FillGrid(const RecordedScan& recorded, const ScreenedFrame& made);
+  void FillGrid(const RecordedScan& recorded,
+                const ScreenedFrame& made,
+                std::span<const std::uint32_t> near);
 
   Certifier certifier_;  ///< Of a frame of one firing.
   double
       cost_of_others_{};  ///< What a firing takes that is not traced; in multiples of one that is.
-  Frame grid_;            ///< What the firings of a frame meet first.
+  Frame grid_;            ///< What the firings that are certified meet first.
 };
 
 }  // namespace railcast

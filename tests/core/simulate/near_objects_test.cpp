@@ -4,9 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <set>
-#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -30,14 +28,13 @@ std::shared_ptr<SimpleWorld> WorldWithSphere(const Vector3& place_m, const Vecto
   return world;
 }
 
-TEST(BeamsNearObjects, AreAllThatMeetAMovingObjectAndFewMore) {
+TEST(NearObjects, AreMetByAllBeamsThatDoAndFewMore) {
   const auto world = WorldWithSphere({25.0, -3.0, 0.0}, {0.0, 30.0, 0.0});
   world->velocity_chunk_mps = {20.0, 0.0, 0.0};
   const ScanPattern pattern = MakeRaster(60.0, 30.0, 0.5);
   const Frame frame = ScanOnce(world, pattern);
-  const std::vector<bool> is_near = BeamsNearObjects(
-      *world, std::array<std::size_t, 1>{}, pattern,
-      {.stamp_ns = 0, .vehicle_from_sensor = Transform::Identity(), .range_max_m = 300.0});
+  const NearObjects near(*world, std::array<std::size_t, 1>{}, pattern, {.range_max_m = 300.0});
+  const std::vector<bool> is_near = near.Beams(0.0);
   std::size_t num_hits = 0;
   for (std::uint32_t i = 0; i < pattern.num_firings(); ++i) {
     const std::size_t slot = std::size_t{pattern.row[i]} * pattern.columns + pattern.column[i];
@@ -50,34 +47,26 @@ TEST(BeamsNearObjects, AreAllThatMeetAMovingObjectAndFewMore) {
   EXPECT_LT(static_cast<std::size_t>(std::ranges::count(is_near, true)), 5 * num_hits);
 }
 
-TEST(BeamsNearObjects, AreTheSameAmongThoseOfAWiderReach) {
+TEST(NearObjects, AreMetByTheSameBeamsAmongWiderOnes) {
   const auto world = WorldWithSphere({25.0, -3.0, 0.0}, {0.0, 30.0, 0.0});
   const ScanPattern pattern = MakeRaster(60.0, 30.0, 0.5);
-  const auto near = [&](double beside_rad, std::optional<std::span<const std::uint32_t>> among) {
-    return BeamsNearObjects(*world, std::array<std::size_t, 1>{}, pattern,
-                            {.vehicle_from_sensor = Transform::Identity(),
-                             .beside_rad = beside_rad,
-                             .range_max_m = 300.0},
-                            among);
-  };
-  const std::vector<bool> wide = near(0.03, {});
-  const std::vector<bool> narrow = near(0.001, {});
+  const NearObjects near(*world, std::array<std::size_t, 1>{}, pattern, {.range_max_m = 300.0});
+  const std::vector<bool> wide = near.Beams(0.03);
+  const std::vector<bool> narrow = near.Beams(0.001);
   EXPECT_LT(std::ranges::count(narrow, true), std::ranges::count(wide, true));
   std::vector<std::uint32_t> firings;
   for (std::uint32_t i = 0; i < wide.size(); ++i) {
     if (wide[i]) firings.push_back(i);
   }
-  EXPECT_EQ(near(0.001, firings), narrow);
+  EXPECT_EQ(near.Beams(0.001, firings), narrow);
 }
 
-TEST(BeamsNearObjects, AreNoneBehindTheSensorOrBeyondItsRange) {
+TEST(NearObjects, AreMetByNoBeamBehindTheSensorOrBeyondItsRange) {
   const ScanPattern pattern = MakeRaster(60.0, 30.0, 1.0);
   for (const double ahead_m : {-20.0, 400.0}) {
     const auto world = WorldWithSphere({ahead_m, 0.0, 0.0}, Vector3::Zero());
-    const std::vector<bool> is_near = BeamsNearObjects(
-        *world, std::array<std::size_t, 1>{}, pattern,
-        {.stamp_ns = 0, .vehicle_from_sensor = Transform::Identity(), .range_max_m = 300.0});
-    EXPECT_EQ(std::ranges::count(is_near, true), 0);
+    const NearObjects near(*world, std::array<std::size_t, 1>{}, pattern, {.range_max_m = 300.0});
+    EXPECT_EQ(std::ranges::count(near.Beams(0.0), true), 0);
   }
 }
 
