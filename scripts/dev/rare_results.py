@@ -2,8 +2,9 @@
 """Measures `study --rare` beside plain studies, for docs/results/rare.md: scripts/dev/rare_results.py BUILD FOLDER
 
 Each study is made plain, without certificates, and with --rare for each margin of braking, on which no distance of
-detection depends. FOLDER keeps what was made, with the processor seconds: a plain study that was interrupted counts as far
-as it came, and goes on where its line in FOLDER/seconds.json is removed. It takes two hours of one processor.
+detection depends, and each precision. FOLDER keeps what was made, with the processor seconds: a plain study that was
+interrupted counts as far as it came, and goes on where its line in FOLDER/seconds.json is removed. It takes two hours of
+one processor.
 """
 
 import json
@@ -19,8 +20,9 @@ PAGE = ROOT / "docs" / "results" / "rare.md"
 SCENARIOS = ROOT / "scenarios"
 Z = statistics.NormalDist().inv_cdf(0.975)
 
-# Margins in metres: the study's own first. Numbers of plain approaches.
-CASES = {"lying_worker": ((2, 1, 8), 4000), "curve_wagon": ((8,), 3000), "thin_post": ((3,), 3000)}
+# Margins in metres, the study's own first, with the precision that is asked for. Numbers of plain approaches.
+CASES = {"lying_worker": (((2, 0.3), (2, 0.1), (1, 0.3), (8, 0.3)), 4000), "curve_wagon": (((8, 0.3),), 3000),
+         "thin_post": (((3, 0.3),), 3000)}
 
 
 def read(path):
@@ -67,22 +69,24 @@ def spare_m(line):
 
 
 def rows_of(build, folder, name):
-    margins, num = CASES[name]
+    cases, num = CASES[name]
     study, recipe = parts_of(name)
     plain = {key: value for key, value in study.items() if key != "rare"}
     plain_s = run(build, folder, f"{name}_plain", plain, {**recipe, "num_scenarios": num}, ("--certify", "off"))
     spares_m = [spare_m(json.loads(line)) for line in (folder / f"{name}_plain/approaches.jsonl").open()]
     each_s = plain_s / len(spares_m)
-    for margin_m in margins:
+    for margin_m, precision in cases:
         braking = {**study["braking"], "margin_m": margin_m}
-        rare_s = run(build, folder, f"{name}_{margin_m}", {**study, "braking": braking}, recipe)
-        report = read(folder / f"{name}_{margin_m}/report.json")
+        rare = {**study.get("rare", {}), "precision": precision}
+        rare_name = f"{name}_{margin_m}_{precision}"
+        rare_s = run(build, folder, rare_name, {**study, "braking": braking, "rare": rare}, recipe)
+        report = read(folder / rare_name / "report.json")
         failed = sum(spare < margin_m - study["braking"]["margin_m"] for spare in spares_m)
-        num_made = sum(1 for _ in (folder / f"{name}_{margin_m}/approaches.jsonl").open())
-        row = [name, margin_m, f"{failed} of {len(spares_m)}", shown(share(failed, len(spares_m))), f"{each_s:.3f}"]
+        num_made = sum(1 for _ in (folder / rare_name / "approaches.jsonl").open())
+        row = [name, margin_m, precision, f"{failed} of {len(spares_m)}", shown(share(failed, len(spares_m))), f"{each_s:.3f}"]
         rare = report["headlines"][0]["value"]
         if rare["value"] is None:
-            reason = re.search(r"There is no figure: (.*?)\.\n", (folder / f"{name}_{margin_m}.txt").read_text(), re.DOTALL)
+            reason = re.search(r"There is no figure: (.*?)\.\n", (folder / f"{rare_name}.txt").read_text(), re.DOTALL)
             yield [*row, "none: " + " ".join(reason[1].split()), num_made, round(rare_s), "", ""]
             continue
         error = (rare["high"] - rare["low"]) / (2 * Z)
@@ -94,7 +98,7 @@ def main():
     build, folder = (pathlib.Path(argument).resolve() for argument in sys.argv[1:])
     folder.mkdir(parents=True, exist_ok=True)
     text, begin = PAGE.read_text(), "| study |"
-    table = [text[text.index(begin):].splitlines()[0], "|" + "---|" * 10]
+    table = [text[text.index(begin):].splitlines()[0], "|" + "---|" * 11]
     for name in CASES:
         table += ["| " + " | ".join(map(str, row)) + " |" for row in rows_of(build, folder, name)]
     PAGE.write_text(text[:text.index(begin)] + "\n".join(table) + "\n")
