@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "railcast/lidar.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 
@@ -43,6 +44,10 @@ struct FramesOfFirings {
   FiringGrid first;
   std::shared_ptr<const MovingFigure> figure{};
 };
+
+/// The direction of a firing's beam, and from where it leaves, in the sensor's axes.
+[[nodiscard]] Vector3 BeamDirection(const ScanPattern& pattern, std::size_t firing);
+[[nodiscard]] Vector3 BeamOrigin_m(const ScanPattern& pattern, std::size_t firing);
 
 /// Larger frames (this one takes about 1 GB) are assumed to be a mistake in the input.
 inline constexpr std::size_t kMaxNumFirings = std::size_t{1} << 24U;

@@ -191,6 +191,19 @@ ScanPattern BuildScanPattern(const ScanSpec& spec) {
   return pattern;
 }
 
+Vector3 BeamDirection(const ScanPattern& pattern, std::size_t firing) {
+  return Eigen::Vector3f(pattern.direction_x[firing], pattern.direction_y[firing],
+                         pattern.direction_z[firing])
+      .cast<double>();
+}
+
+Vector3 BeamOrigin_m(const ScanPattern& pattern, std::size_t firing) {
+  if (pattern.origin_x_m.empty()) return Vector3::Zero();
+  return Eigen::Vector3f(pattern.origin_x_m[firing], pattern.origin_y_m[firing],
+                         pattern.origin_z_m[firing])
+      .cast<double>();
+}
+
 ScanPattern PatternOfFrame(const ScanPattern& pattern, std::uint32_t frame_index) {
   ScanPattern of_frame = pattern;
   if (pattern.repeats()) return of_frame;

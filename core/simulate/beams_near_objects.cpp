@@ -9,6 +9,7 @@
 #include "core/detect/base/beam_optics.h"
 #include "core/detect/beam/footprint.h"
 #include "core/detect/beam/sub_ray_pattern.h"
+#include "core/scan/firing.h"
 
 namespace railcast {
 namespace {
@@ -86,15 +87,8 @@ NearObjects::NearObjects(const World& world,
 }
 
 bool NearObjects::MayMeet(std::size_t firing, double beside_rad) const {
-  const Vector3 direction(static_cast<double>(pattern_.direction_x[firing]),
-                          static_cast<double>(pattern_.direction_y[firing]),
-                          static_cast<double>(pattern_.direction_z[firing]));
-  Vector3 origin_m = Vector3::Zero();
-  if (!pattern_.origin_x_m.empty()) {
-    origin_m = Vector3(static_cast<double>(pattern_.origin_x_m[firing]),
-                       static_cast<double>(pattern_.origin_y_m[firing]),
-                       static_cast<double>(pattern_.origin_z_m[firing]));
-  }
+  const Vector3 direction = BeamDirection(pattern_, firing);
+  const Vector3 origin_m = BeamOrigin_m(pattern_, firing);
   return std::ranges::any_of(spheres_, [&](const MovingSphere& sphere) {
     return MeetsSphere(sphere, origin_m, direction, pattern_.time_ns[firing], beside_rad);
   });

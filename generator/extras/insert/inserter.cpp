@@ -11,6 +11,7 @@
 #include "core/detect/base/beam_optics.h"
 #include "core/extras/packets/velodyne/velodyne_packet.h"
 #include "core/io/run/object_survey.h"
+#include "core/scan/firing.h"
 #include "core/simulate/returns.h"
 #include "generator/extras/insert/recorded_surface.h"
 #include "generator/extras/insert/screen_surfaces.h"
@@ -39,13 +40,6 @@ Vector3 RecordedPoint_m(const RecordedFrame& recorded, std::size_t slot) {
   return recorded.origin_m + Vector3(static_cast<double>(frame.x[slot]),
                                      static_cast<double>(frame.y[slot]),
                                      static_cast<double>(frame.z[slot]));
-}
-
-Vector3 OriginOf(const ScanPattern& pattern, std::size_t firing) {
-  if (pattern.origin_x_m.empty()) return Vector3::Zero();
-  return {static_cast<double>(pattern.origin_x_m[firing]),
-          static_cast<double>(pattern.origin_y_m[firing]),
-          static_cast<double>(pattern.origin_z_m[firing])};
 }
 
 bool HasReturn(const Frame& frame, std::size_t slot) {
@@ -90,7 +84,8 @@ RecordedReturns ReturnsIn(const RecordedFirings& firings,
     for (std::size_t r = 0; r < frame.returns; ++r) {
       const std::size_t slot = firings.SlotOfCell(cell) + r;
       if (!HasReturn(frame, slot)) continue;
-      const Vector3 from_origin_m = RecordedPoint_m(firings.recorded, slot) - OriginOf(pattern, i);
+      const Vector3 from_origin_m =
+          RecordedPoint_m(firings.recorded, slot) - BeamOrigin_m(pattern, i);
       const bool is_known = has_powers && frame.power_ratio[slot] > 0.0F;
       returns.screens.push_back(
           {.range_m = static_cast<float>(from_origin_m.norm()),

@@ -18,6 +18,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/detect/base/weather_optics.h"
+#include "core/scan/firing.h"
 
 namespace railcast::osi {
 namespace {
@@ -255,9 +256,7 @@ void SetRays(const LidarOfView& lidar,
   message.mutable_directions()->Reserve(num_rays);
   message.mutable_timings()->Reserve(num_rays);
   ForEachRay(lidar, frame, [&](std::uint32_t firing, std::size_t) {
-    Set(Vector3(pattern.direction_x[firing], pattern.direction_y[firing],
-                pattern.direction_z[firing]),
-        *message.add_directions());
+    Set(BeamDirection(pattern, firing), *message.add_directions());
     message.add_timings(static_cast<std::uint32_t>(pattern.time_ns[firing] / kNsPerUs));
   });
 }

@@ -12,6 +12,7 @@
 #include "core/base/units.h"
 #include "core/io/cloud/scan_motion.h"
 #include "core/io/recording/recording_kinds.h"
+#include "core/scan/firing.h"
 #include "core/scan/spinning_pattern.h"
 #include "generator/extras/insert/firings/frame_slots.h"
 #include "generator/extras/insert/firings/given_firings.h"
@@ -136,14 +137,10 @@ void MoveToStamp(const Frame& frame, ScanPattern& pattern) {
     origins_m->resize(num);
   }
   for (std::size_t i = 0; i < num; ++i) {
-    const Vector3 origin_m(static_cast<double>(pattern.origin_x_m[i]),
-                           static_cast<double>(pattern.origin_y_m[i]),
-                           static_cast<double>(pattern.origin_z_m[i]));
-    const Vector3 direction(static_cast<double>(pattern.direction_x[i]),
-                            static_cast<double>(pattern.direction_y[i]),
-                            static_cast<double>(pattern.direction_z[i]));
+    const Vector3 origin_m = BeamOrigin_m(pattern, i);
+    const Vector3 ahead_m = origin_m + BeamDirection(pattern, i);
     const Vector3 moved_m = motion.AtStamp(origin_m, pattern.time_ns[i]);
-    const Vector3 turned = motion.AtStamp(origin_m + direction, pattern.time_ns[i]) - moved_m;
+    const Vector3 turned = motion.AtStamp(ahead_m, pattern.time_ns[i]) - moved_m;
     pattern.origin_x_m[i] = static_cast<float>(moved_m.x());
     pattern.origin_y_m[i] = static_cast<float>(moved_m.y());
     pattern.origin_z_m[i] = static_cast<float>(moved_m.z());

@@ -6,6 +6,7 @@
 
 #include "core/io/cloud/scan_motion.h"
 #include "core/io/recording/scan_table.h"
+#include "core/scan/firing.h"
 
 namespace railcast {
 namespace {
@@ -28,14 +29,8 @@ Vector3 PointOfSlot(const Frame& frame, std::size_t slot) {
 
 /// How far a point lies beside the beam of a firing, as a multiple of what is permitted.
 double Beside(const ScanPattern& pattern, std::size_t firing, Vector3 point_m) {
-  if (!pattern.origin_x_m.empty()) {
-    point_m -= Vector3(static_cast<double>(pattern.origin_x_m[firing]),
-                       static_cast<double>(pattern.origin_y_m[firing]),
-                       static_cast<double>(pattern.origin_z_m[firing]));
-  }
-  const Vector3 direction(static_cast<double>(pattern.direction_x[firing]),
-                          static_cast<double>(pattern.direction_y[firing]),
-                          static_cast<double>(pattern.direction_z[firing]));
+  point_m -= BeamOrigin_m(pattern, firing);
+  const Vector3 direction = BeamDirection(pattern, firing);
   const double ahead_m = point_m.dot(direction);
   if (!(ahead_m > 0.0)) return kNotAhead;
   return (point_m - ahead_m * direction).norm() / (kBeside_m + kBeside_rad * ahead_m);

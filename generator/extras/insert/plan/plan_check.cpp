@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/base/text.h"
+#include "core/scan/firing.h"
 #include "railcast/io/recording.h"
 #include "railcast/lidar.h"
 
@@ -68,8 +69,7 @@ std::int64_t CountFirings(const ScanPattern& pattern,
   std::size_t num_firings = 0;
   double sum_ns = 0.0;
   for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
-    const Vector3 direction(pattern.direction_x[i], pattern.direction_y[i], pattern.direction_z[i]);
-    const auto entry_m = EntryOf(seen, direction);
+    const auto entry_m = EntryOf(seen, BeamDirection(pattern, i));
     if (!entry_m || *entry_m > range_max_m) continue;
     ++num_firings;
     sum_ns += pattern.time_ns[i];
