@@ -100,16 +100,22 @@ std::vector<RecordedFrame> NoisyPlanes(int num, double sigma_m) {
   return frames;
 }
 
+Report ReportOf(std::vector<RecordedFrame> frames_a,
+                std::vector<RecordedFrame> frames_b,
+                bool registers) {
+  HeldRecording a(std::move(frames_a)), b(std::move(frames_b));
+  FramePairs pairs(a, b, std::nullopt);
+  Comparison comparison({0.1}, registers);
+  PatchPairs patches;
+  CompareAll(pairs, comparison, patches, [](std::uint64_t) {});
+  return MakeCompareReport(comparison, pairs, a.info(), b.info(), "compare");
+}
+
 std::string ComparisonReportOf(std::vector<RecordedFrame> frames_a,
                                std::vector<RecordedFrame> frames_b,
                                std::size_t num_threads) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, num_threads);
-  HeldRecording a(std::move(frames_a)), b(std::move(frames_b));
-  FramePairs pairs(a, b, std::nullopt);
-  Comparison comparison({0.1});
-  PatchPairs patches;
-  CompareAll(pairs, comparison, patches, [](std::uint64_t) {});
-  const Report report = MakeCompareReport(comparison, pairs, a.info(), b.info(), "compare");
+  const Report report = ReportOf(std::move(frames_a), std::move(frames_b), false);
   for (const Section& section : report.sections) {
     for (const Table& table : section.tables) {
       for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size()) << table.key;
@@ -184,6 +190,19 @@ TEST(Comparison, RegistersCloudsThatAreTheSameButForAMotion) {
               DegFromRad(kTolerance_m / 10.0));
   EXPECT_LT(value("registration_residual_m"), 0.5 * ThinnedCloud::kCell_m);
   EXPECT_LT(value("chamfer_m"), kTolerance_m);
+}
+
+TEST(Comparison, HasNoRegistrationOfAllClouds) {
+  const Report report = ReportOf({FrameOf(MadeCorner())}, {FrameOf(MadeCorner())}, true);
+  int num = 0;
+  for (const Section& section : report.sections) {
+    for (const Table& table : section.tables) {
+      if (table.key != "metrics") continue;
+      EXPECT_TRUE(std::isnan(std::get<double>(table.rows.back().back())));
+      ++num;
+    }
+  }
+  EXPECT_EQ(num, 1);
 }
 
 TEST(Comparison, RefusesToRegisterCloudsOfTooFewPoints) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <variant>
+#include <vector>
 
 #include "analysis/stats/bins.h"
 #include "tests/analysis/recorded_frames.h"
@@ -55,6 +57,20 @@ TEST(Density, FallsWithTheSquareOfRangeOnFacesMetAlike) {
   const PowerLaw law = Density::LawOf(density.by_label().at(6));
   EXPECT_NEAR(law.exponent.value, -2.0, 0.1);
   EXPECT_NEAR(law.factor * kStep_rad * kStep_rad, 1.0, 0.05);
+}
+
+TEST(StatisticsReport, GivesTheDensityOfTheSurfaceWithTheMostPoints) {
+  Statistics statistics;
+  const auto scan = MakeScanTable(Raster());
+  statistics.Add(Record(ScanFloor()), &*scan);
+  for (const float x_m : {10.0F, 20.0F, 40.0F}) statistics.Add(Record(ScanWall(x_m)), &*scan);
+  std::vector<double> exponents;
+  for (const Headline& line : MakeStatisticsReport(statistics, {{}}, "").headlines) {
+    if (!line.title.starts_with("Exponent of density")) continue;
+    exponents.push_back(std::get<Estimate>(line.value).value);
+  }
+  ASSERT_FALSE(exponents.empty());
+  EXPECT_NEAR(exponents.front(), -3.0, 0.1);
 }
 
 TEST(Density, HasTheSameLawsFromPointsAlone) {

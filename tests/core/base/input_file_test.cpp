@@ -10,6 +10,7 @@
 #include <iterator>
 #include <regex>
 #include <string>
+#include <string_view>
 
 #include "core/base/unread_formats.h"
 #include "tests/core/io/message_of.h"
@@ -129,6 +130,20 @@ TEST_F(UnreadFormats, AreKnownByTheirFirstBytes) {
   EXPECT_TRUE(AdviceOn("points", "\x93NUMPY").starts_with("is an array of NumPy"));
   EXPECT_EQ(AdviceOn("drive.pcap", "version https://git-lfs.github.com/spec/v1\n"),
             "is a pointer of Git LFS to the file, which is not read: git lfs pull fetches it");
+}
+
+TEST(UnreadTypes, AreKnownByTheirNamesAndEncodings) {
+  const auto begins = [](std::string_view type, std::string_view encoding) {
+    const std::string_view advice = AdviceOnType(type, encoding);
+    return advice.substr(0, advice.find(", which"));
+  };
+  EXPECT_EQ(begins("sensor_msgs/PointCloud2", "ros1"), "of ROS 1");
+  EXPECT_EQ(begins("point_cloud_interfaces/msg/CompressedPointCloud2", "cdr"), "compressed");
+  EXPECT_EQ(begins("foxglove.PointCloud", "protobuf"), "Foxglove's own");
+  EXPECT_EQ(begins("sensor_msgs/msg/PointCloud", "cdr"), "the older cloud");
+  EXPECT_EQ(begins("sensor_msgs/msg/LaserScan", "cdr"), "a scan of one plane");
+  EXPECT_EQ(begins("rslidar_msg/msg/RslidarPacket", "cdr"), "packets of RoboSense");
+  EXPECT_EQ(begins("sensor_msgs/msg/PointCloud2", "cdr"), "");
 }
 
 TEST_F(UnreadFormats, TellTextOfPosesFromTextOfPoints) {

@@ -153,6 +153,9 @@ TEST(OusterMetadata, WithAWrongValueSayWhichRuleItBreaks) {
   EXPECT_EQ(FaultWith("/beam_intrinsics/beam_altitude_angles/2", "low"),
             "/beam_intrinsics/beam_altitude_angles/2: must be a number from -90 to 90 (got "
             "\"low\")");
+  EXPECT_EQ(FaultWith("/beam_intrinsics/beam_altitude_angles", {3, 2, 1}),
+            "/beam_intrinsics/beam_altitude_angles: must have 4 angles, one for each pixel of a "
+            "column (got 3)");
   EXPECT_EQ(FaultWith("/beam_intrinsics/beam_to_lidar_transform", {1, 2}),
             "/beam_intrinsics/beam_to_lidar_transform: must have 16 numbers (got [1,2])");
   EXPECT_EQ(FaultWith("/lidar_intrinsics/lidar_to_sensor_transform/0", 2),

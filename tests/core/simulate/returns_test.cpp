@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -110,6 +111,18 @@ TEST(Returns, GiveTheNextStrongestWhereTheFirstIsTakenAlready) {
                                         {30.0F, 5.0F, Outcome::kReturned, 3},
                                         {40.0F, 4.0F, Outcome::kReturned, 4}};
   EXPECT_EQ(Chosen({.mode = ReturnMode::kTriple}, echoes), (Surfaces{1, 4, 3}));
+}
+
+TEST(Returns, DoNotDependOnTheOrderOfTheEchoes) {
+  std::vector<HandMade> echoes = kFour;
+  std::ranges::sort(echoes, {}, &HandMade::surface);
+  int num = 0;
+  do {
+    EXPECT_EQ(Chosen({.mode = ReturnMode::kDual}, echoes), (Surfaces{3, 1}));
+    EXPECT_EQ(Chosen({.mode = ReturnMode::kTriple}, echoes), (Surfaces{3, 1, 2}));
+    ++num;
+  } while (std::ranges::next_permutation(echoes, {}, &HandMade::surface).found);
+  EXPECT_EQ(num, 24);
 }
 
 TEST(Returns, LeaveSlotsEmptyWhereNothingMoreCameBack) {

@@ -64,6 +64,13 @@ TEST(DatasetSection, ListsPartsInTheOrderOfTheirUseAndTypesByFrames) {
   EXPECT_DOUBLE_EQ(std::get<double>(TableIn(section, "dataset_classes").rows[0][2]), 60.0);
 }
 
+TEST(DatasetSection, HasNoTableOfObjectsWhereThereAreNone) {
+  DatasetOverview overview = MadeOverview();
+  overview.report.objects.clear();
+  const Section section = MakeDatasetSection(overview, "");
+  EXPECT_THROW((void)TableIn(section, "dataset_objects"), std::out_of_range);
+}
+
 TEST(DatasetSection, HasAColumnForEachBin) {
   const Section section = MakeDatasetSection(MadeOverview(), "");
   const Table& distances = TableIn(section, "dataset_objects_by_distance");

@@ -115,6 +115,11 @@ void RoundTrip(Fidelity rung,
   for (std::uint64_t seed = 1; seed <= kNumSeeds; ++seed) {
     RecordedTrials trials = StreetTrials(SpecOf(rung, seed));
     const FitResult result = FitModel(trials, settings);
+    ASSERT_FALSE(result.noise_by_range.empty());
+    for (const NoiseBin& bin : result.noise_by_range) {
+      // Of 100 residuals, at five standard errors of a robust scale.
+      EXPECT_NEAR(bin.sigma_m.value, bin.fitted_m, 0.5 * bin.fitted_m) << bin.range_m;
+    }
     for (const FittedParameter& parameter : result.parameters) {
       const auto found = expected.find(parameter.place);
       if (found == expected.end() || !parameter.estimate.is_enough()) continue;
