@@ -55,16 +55,13 @@ struct RecordedReturns {
 };
 
 // The intensity with which a return stands for the power that the receiver has met: less than that
-// of the surface where this slants through the beam. The power itself, where it was recorded.
+// of the surface where this slants through the beam.
 float IntensityAt(const RecordedFirings& firings,
                   const DetectorSpec& detector,
                   const IntensityScale& scale,
                   std::size_t firing,
-                  std::size_t slot,
-                  bool is_power_known) {
+                  std::size_t slot) {
   const Frame& frame = firings.recorded.frame;
-  const float by_power = frame.power_ratio[slot] * LeastIntensity(detector, frame.range_m[slot]);
-  if (is_power_known && by_power > 0.0F) return by_power;
   const auto stored = static_cast<double>(frame.intensity[slot]);
   const double intensity = (stored == 0.0 ? scale.of_zero : stored) / scale.per_reflectance;
   const float reflectance = intensity >= 0.0 ? static_cast<float>(intensity) : kUsualReflectance;
@@ -87,9 +84,11 @@ RecordedReturns ReturnsIn(const RecordedFirings& firings,
       const Vector3 from_origin_m =
           RecordedPoint_m(firings.recorded, slot) - BeamOrigin_m(pattern, i);
       const bool is_known = has_powers && frame.power_ratio[slot] > 0.0F;
+      const float by_power =
+          is_known ? frame.power_ratio[slot] * LeastIntensity(detector, frame.range_m[slot]) : 0.0F;
       returns.screens.push_back(
           {.range_m = static_cast<float>(from_origin_m.norm()),
-           .intensity = IntensityAt(firings, detector, scale, i, slot, is_known),
+           .intensity = by_power > 0.0F ? by_power : IntensityAt(firings, detector, scale, i, slot),
            .is_power_known = is_known,
            .share = BeamShareAt(firings, i, slot)});
       returns.slots.push_back(static_cast<std::uint32_t>(slot));

@@ -399,6 +399,13 @@ TEST(InsertRun, GivesThingsThatMoveTheirMovingClassBesideKittisClouds) {
   ASSERT_EQ(added.size(), 1U);
   EXPECT_EQ(added.begin()->first, kMovingPerson);
   EXPECT_GT(added.begin()->second, 10U);
+  const auto recording = OpenRecording(out);
+  (void)recording->Next();
+  const RecordedFrame second = recording->Next().value()();
+  EXPECT_EQ(second.axes, PointAxes::kSensorAtStamp);
+  const auto walker = std::ranges::find(second.objects, "walker", &RecordedObject::name);
+  ASSERT_NE(walker, second.objects.end());
+  EXPECT_EQ(walker->label, "moving person");
 }
 
 TEST(InsertRun, RefusesKittisCloudsWithNoiseAcrossTheBeams) {
