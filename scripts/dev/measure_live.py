@@ -33,9 +33,15 @@ SUMMARY = re.compile(r"(\d+) frames?, (\d+) late; (\d+) datagrams, (\d+) bytes; 
                      r"(\d+) sent, (\d+) refused")
 QUANTILES = re.compile(r"^  (compute|send|lateness) +([\d.]+) +([\d.]+) +([\d.]+) +([\d.]+) ms", re.M)
 FEW_SUB_RAYS = {"footprint_rays": 16}
+PLAIN = ("unlabeled", "ground", "ballast", "sleeper", "road", "grass", "bush", "tree")
+NO_SURFACES = ("rain", "snow", "fog", "ego", "false_alarm", "halo", "spray", "mirror_image", "ghost")
+WIDTH_WHERE_IT_MATTERS = {"footprint_of": [
+    label["name"] for label in json.loads((SCENARIOS / "labels.json").read_text(encoding="utf-8"))["labels"]
+    if label["name"] not in PLAIN + NO_SURFACES]}
 # By the name that is printed: the rung, and keys of the sensor's beam.
 RUNGS = {"geometry": ("geometry", {}), "plausibility": ("plausibility", {}), "surface": ("surface", {}),
-         "footprint": ("footprint", {}), "footprint_16": ("footprint", FEW_SUB_RAYS)}
+         "footprint_of": ("footprint", WIDTH_WHERE_IT_MATTERS), "footprint_16": ("footprint", FEW_SUB_RAYS),
+         "footprint": ("footprint", {})}
 
 
 class Bench:
@@ -75,8 +81,10 @@ class Bench:
         return self.scenario({"file": str(file), "mount": {"position_m": [2.2, 0, 2.5]},
                               "scan": {"rate_hz": rate_hz, "pattern": {**scan["pattern"], "columns": columns}}})
 
-    def sensor(self, name):
-        return self.scenario({"file": str(SCENARIOS / "sensors" / name), "mount": {"position_m": [2.2, 0, 2.5]}})
+    def sensor(self, name, beam=None):
+        file = SCENARIOS / "sensors" / name
+        own = json.loads(file.read_text(encoding="utf-8")).get("beam", {})
+        return self.scenario({"file": str(file), "mount": {"position_m": [2.2, 0, 2.5]}, "beam": {**own, **(beam or {})}})
 
     def stream(self, scenario, seconds, *options):
         """Runs the sender and returns its summary."""
@@ -141,7 +149,10 @@ def late(bench, num_frames):
             ("VLS-128", 20, lambda: bench.spinning("vls128.json", 20), "surface"),
             ("published scan", 10, lambda: bench.published(10), "footprint"),
             ("published scan", 20, lambda: bench.published(20), "footprint"),
-            ("published scan", 20, lambda: bench.published(20, FEW_SUB_RAYS), "footprint_16")):
+            ("published scan", 20, lambda: bench.published(20, FEW_SUB_RAYS), "footprint_16"),
+            ("published scan", 10, lambda: bench.published(10, WIDTH_WHERE_IT_MATTERS), "footprint_of"),
+            ("Pandar64", 10, lambda: bench.sensor("pandar64.json", WIDTH_WHERE_IT_MATTERS), "footprint_of"),
+            ("Pandar64", 10, lambda: bench.sensor("pandar64.json"), "footprint")):
         seconds = num_frames / rate_hz
         sent, received = bench.stream_and_receive(scenario(), seconds, "--fidelity", RUNGS[rung][0])
         print(f"{name}, {rung}, {rate_hz} Hz, {seconds:g} s: {sent['frames']} frames, {sent['late']} late; "
