@@ -233,9 +233,10 @@ FrameCertificate Certifier::Certify(const Frame& frame,
                                     const ScanFirings& scan) const {
   const std::vector<std::uint8_t> kinds = StratumKindsOf(frame, EdgesOf(frame));
   StrataCounter counter;
-  for (std::size_t cell = 0; cell < kinds.size(); ++cell) {
-    if (region == nullptr || region->cells[cell])
-      counter.Count(frame.label[std::size_t{cell} * frame.returns], kinds[cell]);
+  const std::size_t num_cells = region == nullptr ? kinds.size() : region->cells.size();
+  for (std::size_t i = 0; i < num_cells; ++i) {
+    const std::size_t cell = region == nullptr ? i : region->cells[i];
+    counter.Count(frame.label[cell * frame.returns], kinds[cell]);
   }
   FrameCertificate certificate{counter.Strata(), {}};
   double per_scatter = probability_per_scatter_;
@@ -257,7 +258,7 @@ FrameCertificate Certifier::Certify(const Frame& frame,
   for (auto draw = draws.Next(); draw.cell < static_cast<double>(kinds.size());
        draw = draws.Next()) {
     const auto cell = static_cast<std::uint32_t>(draw.cell);
-    if (region != nullptr && !region->cells[cell]) continue;
+    if (region != nullptr && !std::ranges::binary_search(region->cells, cell)) continue;
     const Stratum stratum = StratumOf(frame.label[std::size_t{cell} * frame.returns], kinds[cell]);
     const auto at =
         std::ranges::find(certificate.strata, stratum, [](const Stratum& each) { return each; });

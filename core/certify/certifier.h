@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -20,7 +19,7 @@ namespace railcast {
 
 /// What of a frame is certified.
 struct CertifiedRegion {
-  std::vector<bool> cells{};  ///< The firings, by cell: all others are left out.
+  std::vector<std::uint32_t> cells{};  ///< Those of the firings, ascending: others are left out.
   /// Only echoes of these objects are counted; of all things if it is empty.
   std::set<std::uint32_t> instances{};
   /// About how many firings are drawn; absent: as many as the share of the time is enough for if
@@ -33,7 +32,7 @@ struct CertifiedRegion {
 /// and compares their echoes before range noise.
 ///
 /// Which firings are drawn depends on the sensor's seed, the frame's number and its own result
-/// alone: by strata (StrataOf()), more of those of which experience says that they differ (Neyman
+/// alone: by strata (Stratum), more of those of which experience says that they differ (Neyman
 /// 1934). The probabilities are the same in all frames.
 ///
 ///     const Certifier certifier(scenario, 0.01, *simulator);

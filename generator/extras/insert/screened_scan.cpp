@@ -93,6 +93,10 @@ std::vector<std::uint32_t> Those(const std::vector<std::uint32_t>& order,
 }
 
 FewReturns ReturnsOf(std::vector<std::uint32_t> firings, const RecordedScan& all) {
+  if (firings.size() == all.pattern.num_firings()) {
+    std::iota(firings.begin(), firings.end(), 0U);
+    return {std::move(firings), all.first, all.returns};
+  }
   std::ranges::sort(firings);
   FewReturns few{.firings = std::move(firings),
                  .first = std::vector<std::uint32_t>(all.first.size())};
@@ -274,7 +278,7 @@ struct ScreenedScan::Parts {
     }
   }
 
-  [[nodiscard]] ScreenedFrame MakeFirings(const Way& way, const Wanted& wanted, bool has_views) {
+  [[nodiscard]] ScreenedFrame MakeFirings(const Way& way, const Wanted& wanted, bool is_own) {
     ScreenedFrame frame;
     const auto& [recorded, scene, duration_ns, returns, order, is_near] = wanted;
     const DetectorSpec& detector = way.spec.detector;
@@ -315,12 +319,13 @@ struct ScreenedScan::Parts {
     }
     std::ranges::sort(frame.firings, {}, &ChangedFiring::firing);
     NumberAmongAll(screens, recorded, frame.firings);
+    if (!is_own) return frame;
     frame.power_kept.assign(recorded.returns.size(), 1.0F);
     for (const std::uint32_t firing : makes_others ? order : near) {
       std::copy_n(power_kept.begin() + screens.first(firing), screens.of(firing).size(),
                   frame.power_kept.begin() + recorded.first[firing]);
     }
-    if (has_views) frame.views = ViewObjects(job, scene, near);
+    frame.views = ViewObjects(job, scene, near);
     return frame;
   }
 

@@ -201,6 +201,7 @@ class InsertRun {
       result.num_resumed = output_->Begin(folder_.num_done());
       folder_.Open(result.num_resumed);
       WriteFixed();
+      if (inserter_.certify()) certificates_ = CertificatesSoFar();
       try {
         MakeFrames();
       } catch (...) {
@@ -321,6 +322,7 @@ class InsertRun {
     std::vector<std::string> lines = {
         PoseLine(pose), InsertedObjectsLine(way.firings, way.inserted, way.frame, stamp_ns)};
     lines.insert(lines.end(), way.output.lines.begin(), way.output.lines.end());
+    if (way.entry.frame.certificate) certificates_->Add(*way.entry.frame.certificate);
     folder_.Write(files, lines, std::move(way.entry));
     way = {};
   }
@@ -336,14 +338,20 @@ class InsertRun {
   }
 
   [[nodiscard]] std::optional<RunCertificate> CertificateOfFrames() const {
-    if (!inserter_.certify()) return std::nullopt;
+    if (!certificates_) return std::nullopt;
+    return certificates_->Result(LabelsOf(recording_.info(), plan_));
+  }
+
+  // Of the frames that an earlier run has made.
+  [[nodiscard]] CertificateSums CertificatesSoFar() const {
     CertificateSums sums(*inserter_.certify());
+    if (folder_.num_done() == 0) return sums;
     LineReader lines(folder_.directory() / kInsertFile);
     while (const auto line = lines.Next()) {
       const auto certificate = ReadInsertLine(line->text, line->place).frame.certificate;
       if (certificate) sums.Add(*certificate);
     }
-    return sums.Result(LabelsOf(recording_.info(), plan_));
+    return sums;
   }
 
   const InsertPlan& plan_;
@@ -358,6 +366,7 @@ class InsertRun {
   std::unique_ptr<RecordingOutput> output_;
   InsertRunRecord run_;
   FrameFolder folder_;
+  std::optional<CertificateSums> certificates_;  ///< If the run is certified.
 };
 
 /// Sums what insert.jsonl says of the frames.
