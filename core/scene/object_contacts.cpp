@@ -61,12 +61,16 @@ double LeastGap_m(const std::vector<NearBody>& of_one,
   // Sorted along an axis, so that pieces with thousands of triangles need not all be compared.
   const auto begin_m = [](const NearBody& body) { return body.box_m.min().x(); };
   std::ranges::sort(of_other, {}, begin_m);
-  double longest_m = 0.0;
-  for (const NearBody& other : of_other) longest_m = std::max(longest_m, other.box_m.sizes().x());
+  std::vector<double> end_m;  // Of each body, and of those before it.
+  for (const NearBody& other : of_other) {
+    const double own_m = other.box_m.max().x();
+    end_m.push_back(end_m.empty() ? own_m : std::max(end_m.back(), own_m));
+  }
   double least_m = kApart_m;
   for (const NearBody& one : of_one) {
     const Eigen::AlignedBox3d reach_m = Widened(one.box_m, kTouch_m);
-    auto other = std::ranges::lower_bound(of_other, reach_m.min().x() - longest_m, {}, begin_m);
+    auto other =
+        of_other.begin() + (std::ranges::lower_bound(end_m, reach_m.min().x()) - end_m.begin());
     for (; other != of_other.end() && begin_m(*other) <= reach_m.max().x(); ++other) {
       if (!reach_m.intersects(other->box_m)) continue;
       if (-DepthOfBoxes_m(one.box_m, other->box_m) >= least_m) continue;
