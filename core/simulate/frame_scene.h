@@ -80,8 +80,9 @@ struct BegunFrame {
   std::uint32_t index{};
   std::int64_t stamp_ns{};
   std::shared_ptr<const Window> window;
-  std::unique_ptr<const FrameScene> scene{};   ///< Null until FrameScenes::SceneOf().
-  std::shared_ptr<const FiringTiles> tiles{};  ///< Its firings; null until their first use.
+  std::unique_ptr<const FrameScene> scene{};     ///< Null until FrameScenes::SceneOf().
+  std::shared_ptr<const FiringTiles> tiles{};    ///< Its firings; null until their first use.
+  std::shared_ptr<const ScanPattern> pattern{};  ///< Likewise; always null where it repeats.
 };
 
 /// Properties that all frames of a run share.

@@ -52,9 +52,7 @@ void Simulator::ScanNearObjects(BegunFrame& begun,
   // A halo reaches any beam.
   if (parts.own->halo) return Scan(begun, frame);
   WithinMemory(parts.Making(begun.index), [&] {
-    const ScanPattern of_frame =
-        parts.pattern.repeats() ? ScanPattern() : PatternOfFrame(parts.pattern, begun.index);
-    const ScanPattern& pattern = parts.pattern.repeats() ? parts.pattern : of_frame;
+    const ScanPattern& pattern = parts.PatternOf(begun);
     const NearObjects near(world(), objects, pattern, ReachInFrame(parts.spec, begun.stamp_ns));
     const std::vector<bool> is_near = near.Beams(BesideBeam_rad(parts.spec.detector));
     const FiringTiles& all = parts.TilesOf(begun);
@@ -81,9 +79,7 @@ std::vector<bool> Simulator::FiringsNearObjects(BegunFrame& begun,
     beside_rad = std::max(beside_rad, BesideBeam_rad(other.detector));
   }
   return WithinMemory(parts.Making(begun.index), [&] {
-    const ScanPattern of_frame =
-        parts.pattern.repeats() ? ScanPattern() : PatternOfFrame(parts.pattern, begun.index);
-    const ScanPattern& pattern = parts.pattern.repeats() ? parts.pattern : of_frame;
+    const ScanPattern& pattern = parts.PatternOf(begun);
     const NearObjects near(world(), objects, pattern, ReachInFrame(parts.spec, begun.stamp_ns));
     const std::vector<bool> is_near = near.Beams(beside_rad);
     std::vector<bool> by_cell(std::size_t{pattern.rows} * pattern.columns);

@@ -82,6 +82,13 @@ struct Simulator::Parts {
     if (pattern.repeats()) return tiles;
     return std::make_shared<const FiringTiles>(PatternOfFrame(pattern, frame_index));
   }
+  [[nodiscard]] const ScanPattern& PatternOf(BegunFrame& begun) const {
+    if (pattern.repeats()) return pattern;
+    if (begun.pattern == nullptr) {
+      begun.pattern = std::make_shared<const ScanPattern>(PatternOfFrame(pattern, begun.index));
+    }
+    return *begun.pattern;
+  }
   [[nodiscard]] const FiringTiles& TilesOf(BegunFrame& begun) const {
     if (begun.tiles == nullptr) begun.tiles = TilesOf(begun.index);
     return *begun.tiles;

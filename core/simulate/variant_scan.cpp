@@ -42,9 +42,7 @@ void Simulator::ScanFirings(BegunFrame& begun,
   Check(frames.size() == parts.others.size(), "there is a frame for each variant");
   Check(!cells.empty() && std::ranges::is_sorted(cells), "cells are in order");
   WithinMemory(parts.Making(begun.index), [&] {
-    const ScanPattern of_frame =
-        parts.pattern.repeats() ? ScanPattern() : PatternOfFrame(parts.pattern, begun.index);
-    const ScanPattern& pattern = parts.pattern.repeats() ? parts.pattern : of_frame;
+    const ScanPattern& pattern = parts.PatternOf(begun);
     const FiringTiles firings = FiringTiles::OfCells(pattern, cells);
     const FrameScene& scene = parts.SceneOf(begun);
     for (std::size_t i = 0; i < frames.size(); ++i) {
