@@ -9,7 +9,8 @@ clients: VLP-16 at 20 Hz and HDL-32E at 10 Hz into PCL's own grabbers.
 limits: the highest rate that each rung sustains without a late frame, in one of three tries: virtual
 machines occasionally pause for tens of milliseconds.
 late: the late frames of the most expensive runs, received on the same cores: VLS-128, and footprint on
-the published scan, at 10 and 20 Hz. For two cores: taskset -c 0,1 measure_live.py BUILD_DIR late.
+the published scan, at 10 and 20 Hz; footprint and footprint_of, which gives a width to things alone, on
+Pandar64, too. For two cores: taskset -c 0,1 measure_live.py BUILD_DIR late.
 fast: the published scan at 10 Hz from a train at 160 km/h, on an open line, through hills and through
 a station: what a frame takes, and how long the longest one, which waits for the world if any does.
 certified: the published scan at 10 Hz, three times in turn without and with --certify 1%: a
@@ -33,7 +34,7 @@ SUMMARY = re.compile(r"(\d+) frames?, (\d+) late; (\d+) datagrams, (\d+) bytes; 
                      r"(\d+) sent, (\d+) refused")
 QUANTILES = re.compile(r"^  (compute|send|lateness) +([\d.]+) +([\d.]+) +([\d.]+) +([\d.]+) ms", re.M)
 FEW_SUB_RAYS = {"footprint_rays": 16}
-PLAIN = ("unlabeled", "ground", "ballast", "sleeper", "road", "grass", "bush", "tree")
+PLAIN = ("unlabeled", "ground", "ballast", "sleeper", "slab_track", "road", "grass", "bush", "tree")
 NO_SURFACES = ("rain", "snow", "fog", "ego", "false_alarm", "halo", "spray", "mirror_image", "ghost")
 WIDTH_WHERE_IT_MATTERS = {"footprint_of": [
     label["name"] for label in json.loads((SCENARIOS / "labels.json").read_text(encoding="utf-8"))["labels"]
@@ -83,8 +84,10 @@ class Bench:
 
     def sensor(self, name, beam=None):
         file = SCENARIOS / "sensors" / name
-        own = json.loads(file.read_text(encoding="utf-8")).get("beam", {})
-        return self.scenario({"file": str(file), "mount": {"position_m": [2.2, 0, 2.5]}, "beam": {**own, **(beam or {})}})
+        lidar = {"file": str(file), "mount": {"position_m": [2.2, 0, 2.5]}}
+        if beam:
+            lidar["beam"] = {**json.loads(file.read_text(encoding="utf-8"))["beam"], **beam}
+        return self.scenario(lidar)
 
     def stream(self, scenario, seconds, *options):
         """Runs the sender and returns its summary."""
@@ -143,7 +146,7 @@ def limits(bench, seconds):
         print(f"{name}: {low_hz:.0f} Hz for {seconds:g} s without a late frame", flush=True)
 
 
-def late(bench, num_frames):
+def late(bench, seconds):
     for name, rate_hz, scenario, rung in (
             ("VLS-128", 10, lambda: bench.sensor("vls128.json"), "surface"),
             ("VLS-128", 20, lambda: bench.spinning("vls128.json", 20), "surface"),
@@ -153,7 +156,6 @@ def late(bench, num_frames):
             ("published scan", 10, lambda: bench.published(10, WIDTH_WHERE_IT_MATTERS), "footprint_of"),
             ("Pandar64", 10, lambda: bench.sensor("pandar64.json", WIDTH_WHERE_IT_MATTERS), "footprint_of"),
             ("Pandar64", 10, lambda: bench.sensor("pandar64.json"), "footprint")):
-        seconds = num_frames / rate_hz
         sent, received = bench.stream_and_receive(scenario(), seconds, "--fidelity", RUNGS[rung][0])
         print(f"{name}, {rung}, {rate_hz} Hz, {seconds:g} s: {sent['frames']} frames, {sent['late']} late; "
               f"compute p50 {sent['compute'][0]:.1f}, p99 {sent['compute'][2]:.1f} ms; send p50 "
@@ -197,7 +199,7 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("what", nargs="*", choices=["steady", "clients", "limits", "late", "fast", "certified", []])
-    parser.add_argument("--seconds", type=float, help="of each run but those of late (default: 60, 60, 10, 30, 60)")
+    parser.add_argument("--seconds", type=float, help="of each run (default: 60, of limits 10, of fast 30)")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(options.build, pathlib.Path(folder))
@@ -206,7 +208,7 @@ def main():
             if not options.what or name in options.what:
                 measure(bench, options.seconds or seconds)
         if not options.what or "late" in options.what:
-            late(bench, 600)
+            late(bench, options.seconds or 60.0)
         if "certified" in options.what:
             certified(bench, options.seconds or 60.0)
 

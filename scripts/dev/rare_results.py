@@ -84,14 +84,14 @@ def rows_of(build, folder, name):
         failed = sum(spare < margin_m - study["braking"]["margin_m"] for spare in spares_m)
         num_made = sum(1 for _ in (folder / rare_name / "approaches.jsonl").open())
         row = [name, margin_m, precision, f"{failed} of {len(spares_m)}", shown(share(failed, len(spares_m))), f"{each_s:.3f}"]
-        rare = report["headlines"][0]["value"]
-        if rare["value"] is None:
+        figure = report["headlines"][0]["value"]
+        if figure["value"] is None:
             reason = re.search(r"There is no figure: (.*?)\.\n", (folder / f"{rare_name}.txt").read_text(), re.DOTALL)
             yield [*row, "none: " + " ".join(reason[1].split()), num_made, round(rare_s), "", ""]
             continue
-        error = (rare["high"] - rare["low"]) / (2 * Z)
-        wanted = rare["value"] * (1 - rare["value"]) / error ** 2
-        yield [*row, shown(rare), num_made, round(rare_s), f"{wanted:,.0f}", f"{wanted * each_s / rare_s:.1f}"]
+        error = (figure["high"] - figure["low"]) / (2 * Z)
+        wanted = figure["value"] * (1 - figure["value"]) / error ** 2
+        yield [*row, shown(figure), num_made, round(rare_s), f"{wanted:,.0f}", f"{wanted * each_s / rare_s:.1f}"]
 
 
 def main():

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Says how many faults that are put into the product's sources its test programs find.
 
-Usage: seed_mutants.py seed NUM SEED
+Usage: seed_mutants.py seed NUM SEED            NUM of at most 1000
        seed_mutants.py reach BUILD FOLDER
        seed_mutants.py kill BUILD FOLDER [SECONDS]
 
@@ -9,7 +9,8 @@ seed changes NUM places of the tree, chosen by SEED, so that all faults are comp
 the Kth on: a statement is left out, or a condition always or never holds. Work on a copy of the tree; the places are
 written to mutants.json. reach runs ctest's entries of test programs once and keeps in FOLDER which faults each passed;
 what fails without a fault is left out. kill runs, for each fault, the entries that pass it, those that pass the fewest
-first, until one fails or their time exceeds SECONDS (120). Both go on where they were stopped.
+first, until one fails, and fails only with the fault, or their time exceeds SECONDS (120). Both go on where they were
+stopped.
 """
 
 import concurrent.futures
@@ -18,12 +19,14 @@ import os
 import pathlib
 import random
 import re
+import signal
 import subprocess
 import sys
 import time
 
 PLACES = "mutants.json"
-MOST_S = 300.0  # A test that takes longer has failed.
+MOST_S = 300.0  # A test that takes longer has failed, or ten times as long as without a fault.
+MOST_MUTANTS = 1000  # As mutant.h has it.
 ROOMS = ("core", "generator", "analysis", "viewer")
 # A call or an assignment that fills a line; what declares something has two words before its bracket or sign.
 STATEMENT = re.compile(r"^(\s+)((?:[a-z_][\w.]*(?:->[\w.]+|\[[^\]]*\])*)(?:\(.*\)| [-+*/|&]?= .*|\+\+|--);)$")
@@ -47,7 +50,7 @@ def mutants_of(path):
         found = CONDITION.match(line)
         if found and is_balanced(found[2]) and is_balanced(found[3]) and ";" not in found[2] and " = " not in found[2]:
             begin, condition, end = found.groups()
-            # An `else` or a variable of the condition would not survive more than a change of its value.
+            # Only the value changes, so that an `else` that follows still compiles.
             yield number, "always", f"{begin}(({condition}) || railcast_mutants::Is({{K}})){end}"
             yield number, "never", f"{begin}(({condition}) && !railcast_mutants::Is({{K}})){end}"
         found = STATEMENT.match(line)
@@ -91,15 +94,18 @@ def test_programs(build):
     return programs
 
 
-def run_entry(program, **more):
+def run_entry(program, most_s=MOST_S, **more):
     """(whether it passed, its seconds)."""
     command, folder, environment = program
     begin = time.time()
+    # In a group of its own, to end what it has started with it.
+    running = subprocess.Popen(command, cwd=folder, env=os.environ | environment | more, stdin=subprocess.DEVNULL,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
     try:
-        done = subprocess.run(command, cwd=folder, env=os.environ | environment | more, stdin=subprocess.DEVNULL,
-                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=MOST_S, check=False)
-        return done.returncode == 0, time.time() - begin
-    except (subprocess.TimeoutExpired, OSError):
+        return running.wait(most_s) == 0, time.time() - begin
+    except subprocess.TimeoutExpired:
+        os.killpg(running.pid, signal.SIGKILL)
+        running.wait()
         return False, time.time() - begin
 
 
@@ -112,7 +118,7 @@ def reach(build, folder):
     programs = test_programs(build)
 
     def run(name):
-        into = folder / name
+        into = folder / name.replace("/", "_")
         if (into / "entry.json").exists():
             return
         into.mkdir(parents=True, exist_ok=True)
@@ -142,10 +148,11 @@ def kill(build, folder, limit_s):
         for entry in reaching:
             if spent_s > limit_s:
                 break
-            passed, seconds = run_entry(programs[entry["name"]], RAILCAST_MUTANT=str(k))
+            program = programs[entry["name"]]
+            passed, seconds = run_entry(program, min(MOST_S, 30.0 + 10.0 * entry["seconds"]), RAILCAST_MUTANT=str(k))
             spent_s += seconds
             ran.append(entry["name"])
-            if not passed:
+            if not passed and run_entry(program)[0]:
                 killer = entry["name"]
                 break
         line = places[k] | {"mutant": k, "killer": killer, "num_reaching": len(reaching), "ran": ran}
@@ -157,12 +164,12 @@ def kill(build, folder, limit_s):
 
 
 def main(arguments):
-    if len(arguments) == 4 and arguments[1] == "seed":
+    if len(arguments) == 4 and arguments[1] == "seed" and int(arguments[2]) <= MOST_MUTANTS:
         seed(int(arguments[2]), int(arguments[3]))
     elif len(arguments) == 4 and arguments[1] == "reach":
-        reach(arguments[2], pathlib.Path(arguments[3]))
+        reach(arguments[2], pathlib.Path(arguments[3]).resolve())
     elif len(arguments) in (4, 5) and arguments[1] == "kill":
-        kill(arguments[2], pathlib.Path(arguments[3]), float(arguments[4]) if len(arguments) == 5 else 120.0)
+        kill(arguments[2], pathlib.Path(arguments[3]).resolve(), float(arguments[4]) if len(arguments) == 5 else 120.0)
     else:
         print(__doc__, file=sys.stderr)
         return 1
