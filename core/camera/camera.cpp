@@ -3,9 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <memory>
 
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"

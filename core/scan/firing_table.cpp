@@ -1,7 +1,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <istream>
 #include <memory>
 #include <utility>
 #include <vector>
