@@ -259,7 +259,7 @@ class FarTargetsByRaysOn : public FarTargetsOn {
  protected:
   FarTargetsByRaysOn() {
     rung_ = Fidelity::kSurface;
-    only_near_ = false;  // Keeps each beam's draws, of which the known shares are.
+    only_near_ = false;  // So that each beam has the draws with which the known shares were made.
     min_tilts_ = 6;      // Enough for an interval.
   }
 };

@@ -158,7 +158,8 @@ TEST(DetectReport, ChartsPointsBesideWhatIsNeeded) {
   EXPECT_EQ(chart.series[0].points[18].y, 1.0);
   // What is enough is a level line.
   ASSERT_EQ(chart.series[1].points.size(), 2U);
-  EXPECT_EQ(chart.series[1].points[0].y, chart.series[1].points[1].y);
+  EXPECT_EQ(chart.series[1].points[0].y, 5.0);
+  EXPECT_EQ(chart.series[1].points[1].y, 5.0);
   EXPECT_EQ(chart.series[2].title, "needed: 135 m");
   EXPECT_EQ(chart.series[2].points[0].x, 135.0);
   EXPECT_EQ(chart.series[3].title, "detected at: 138 m");

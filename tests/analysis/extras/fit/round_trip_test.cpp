@@ -117,8 +117,8 @@ void RoundTrip(Fidelity rung,
     const FitResult result = FitModel(trials, settings);
     ASSERT_FALSE(result.noise_by_range.empty());
     for (const NoiseBin& bin : result.noise_by_range) {
-      // Of 100 residuals, at five standard errors of a robust scale.
-      EXPECT_NEAR(bin.sigma_m.value, bin.fitted_m, 0.5 * bin.fitted_m) << bin.range_m;
+      // Of 100 residuals, at five standard errors of a robust scale, 0.117 of it each.
+      EXPECT_NEAR(bin.sigma_m.value, bin.fitted_m, 0.59 * bin.fitted_m) << bin.range_m;
     }
     for (const FittedParameter& parameter : result.parameters) {
       const auto found = expected.find(parameter.place);
