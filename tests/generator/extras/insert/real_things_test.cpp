@@ -10,6 +10,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
@@ -221,6 +222,16 @@ Echoes PutAgain(CutThing cut, Fidelity rung = Fidelity::kFootprint) {
   return ours;
 }
 
+/// A thing that was cut out of its capture, and ours in its place; made once for all tests.
+const std::pair<CutThing, Echoes>& CutOutAndPutAgain(const RealThing& thing) {
+  static std::map<std::string, std::pair<CutThing, Echoes>> made;
+  auto& again = made[thing.recording + ", " + thing.what];
+  if (!again.second.empty()) return again;
+  again.first = CutOutOfCapture(thing);
+  again.second = PutAgain(again.first);
+  return again;
+}
+
 /// The echoes of a row, by column.
 std::map<std::uint32_t, std::vector<Echo>> RowsOf(const Echoes& echoes) {
   std::map<std::uint32_t, std::vector<Echo>> rows;
@@ -229,8 +240,7 @@ std::map<std::uint32_t, std::vector<Echo>> RowsOf(const Echoes& echoes) {
 }
 
 double Mean(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
+  const double sum = std::accumulate(values.begin(), values.end(), 0.0);
   return sum / static_cast<double>(std::max<std::size_t>(values.size(), 1));
 }
 
@@ -335,14 +345,12 @@ class Profile {
 // scripts/dev/draw_insertion.sh draws what this prints.
 TEST(RealThings, ComeBackWhereTheyWereCutOut) {
   std::size_t num = 0;
-  double sum_of_beams = 0.0;
-  double sum_of_rays = 0.0;
+  double sum_of_beams = 0.0, sum_of_rays = 0.0;
   Profile real, ours;
   for (const RealThing& thing : RealThings()) {
     if (!IsThere(thing)) continue;
     SCOPED_TRACE(thing.sensor + ", " + thing.what);
-    const CutThing cut = CutOutOfCapture(thing);
-    const Echoes beams = PutAgain(cut);
+    const auto& [cut, beams] = CutOutAndPutAgain(thing);
     const Echoes rays = PutAgain(cut, Fidelity::kSurface);
     PrintRow(cut, beams, rays);
     const Difference difference = Compare(cut.real, beams);
@@ -391,8 +399,8 @@ constexpr std::array<const char*, 7> kFeatures = {
 constexpr std::size_t kNumOfShape = 4;
 
 /// The rows of a real thing and of ours in its place, each feature less its mean over the thing.
-TwoSamples RowsOfBoth(const CutThing& cut) {
-  const Echoes ours = PutAgain(cut);
+TwoSamples RowsOfBoth(const RealThing& thing) {
+  const auto& [cut, ours] = CutOutAndPutAgain(thing);
   TwoSamples rows;
   for (const auto* echoes : {&cut.real, &ours}) {
     for (const auto& [number, row] : RowsOf(*echoes)) {
@@ -423,7 +431,7 @@ TEST(RealThings, AreToldFromOursByTheseFeatures) {
   std::size_t num_things = 0;
   for (const RealThing& thing : RealThings()) {
     if (thing.sensor != "VLS-128" || thing.type != "pole" || !IsThere(thing)) continue;
-    const TwoSamples rows = RowsOfBoth(CutOutOfCapture(thing));
+    const TwoSamples rows = RowsOfBoth(thing);
     for (std::size_t i = 0; i < rows.features.size(); ++i) {
       all.Add(rows.features[i], rows.is_second[i], num_things);
     }
@@ -460,9 +468,9 @@ TEST(RealThings, HaveEndsThatDifferAsOursDoNot) {
     if (thing.sensor != "VLS-128" || thing.distance_m > 15.0 || thing.type != "pole") continue;
     if (!IsThere(thing)) GTEST_SKIP() << "no captures in " << RAILCAST_SHARED_DATA_DIR;
     SCOPED_TRACE(thing.what);
-    const CutThing cut = CutOutOfCapture(thing);
+    const auto& [cut, ours] = CutOutAndPutAgain(thing);
     const auto real_m = EndsBehindTheMiddle_m(cut.real);
-    const auto ours_m = EndsBehindTheMiddle_m(PutAgain(cut));
+    const auto ours_m = EndsBehindTheMiddle_m(ours);
     std::printf("| %s | %.0f, %.0f | %.0f, %.0f |\n", thing.what.c_str(), 1e3 * real_m[0],
                 1e3 * real_m[1], 1e3 * ours_m[0], 1e3 * ours_m[1]);
     EXPECT_GT(std::abs(real_m[0] - real_m[1]), 0.015);
@@ -481,7 +489,7 @@ TEST(RealThings, GiveTheirRowsToOtherClassifiers) {
   for (RealThing& thing : HeldOutThings()) things.push_back(std::move(thing));
   for (const RealThing& thing : things) {
     if (!IsThere(thing)) continue;
-    const TwoSamples rows = RowsOfBoth(CutOutOfCapture(thing));
+    const TwoSamples rows = RowsOfBoth(thing);
     for (std::size_t i = 0; i < rows.features.size(); ++i) {
       out << '\n' << thing.sensor << ' ' << thing.what << ',' << rows.is_second[i];
       for (const double value : rows.features[i]) out << ',' << value;
