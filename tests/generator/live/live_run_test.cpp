@@ -90,15 +90,20 @@ TEST(LiveRun, KeepsItsStampsForADay) {
     EXPECT_EQ(records.front().frames, num_frames);
     EXPECT_EQ(records.front().late_frames, 0U);
     ASSERT_EQ(sensor.sent.size(), 2 * num_frames);
+    // An assertion for each of seven million datagrams would take longer than the run.
+    std::size_t num_wrong = 0;
+    double most_off_ns = 0.0;
     for (std::size_t i = 0; i < sensor.sent.size(); ++i) {
       const TinySensor::Sent& sent = sensor.sent[i];
-      ASSERT_EQ(sent.frame, i / 2);
       const double exact_ns = static_cast<double>(sent.frame) * 1e9 / rate_hz;
       const std::int64_t half_ns = i % 2 == 0 ? 0 : sensor.StampNs(1) / 2;
-      // A double resolves a day to 2^-53, 0.01 ns; stamps are rounded to whole nanoseconds.
-      ASSERT_NEAR(static_cast<double>(sent.due_ns - half_ns), exact_ns, 0.52);
-      ASSERT_EQ(sent.left_ns, sent.due_ns + sensor.StampNs(1));
+      most_off_ns =
+          std::max(most_off_ns, std::abs(static_cast<double>(sent.due_ns - half_ns) - exact_ns));
+      if (sent.frame != i / 2 || sent.left_ns != sent.due_ns + sensor.StampNs(1)) ++num_wrong;
     }
+    EXPECT_EQ(num_wrong, 0U);
+    // A double resolves a day to 2^-53, 0.01 ns; stamps are rounded to whole nanoseconds.
+    EXPECT_LT(most_off_ns, 0.52);
   }
 }
 
