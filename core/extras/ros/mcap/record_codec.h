@@ -14,6 +14,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/extras/ros/mcap/mcap_records.h"
+#include "core/extras/ros/messages/named_fields.h"
 
 namespace railcast::mcap {
 
@@ -138,7 +139,7 @@ void AppendRecord(const Record& record, Bytes& out) {
   out.push_back(static_cast<std::byte>(Record::kOpcode));
   FieldWriter write(out);
   write("length", std::uint64_t{0});
-  Record::Fields(record, write);
+  VisitFields(record, write);
   const std::uint64_t size = out.size() - start - kRecordHead_bytes;
   std::memcpy(out.data() + start + 1, &size, sizeof size);
 }
@@ -148,7 +149,7 @@ void AppendRecord(const Record& record, Bytes& out) {
 template <typename Record>
 [[nodiscard]] Record ReadRecord(ByteSpan content) {
   Record record;
-  Record::Fields(record, FieldReader(content));
+  VisitFields(record, FieldReader(content));
   return record;
 }
 

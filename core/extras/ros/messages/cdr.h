@@ -14,6 +14,7 @@
 
 #include "core/base/error.h"
 #include "core/extras/ros/messages/message_type.h"
+#include "core/extras/ros/messages/named_fields.h"
 
 namespace railcast::ros {
 
@@ -48,8 +49,7 @@ class Writer {
     } else if constexpr (kIsNumber<T>) {
       PutRun(&value, 1);
     } else {
-      T::VisitFields(value,
-                     [this](std::string_view, const auto& field, auto...) { this->Put(field); });
+      VisitFields(value, [this](std::string_view, const auto& field) { this->Put(field); });
     }
   }
   void Put(const std::string& text);
@@ -98,7 +98,7 @@ template <typename T>
     static const std::size_t size = [] {
       std::size_t sum = 0;
       T message;
-      T::VisitFields(message, [&sum](std::string_view, auto& field, auto...) {
+      VisitFields(message, [&sum](std::string_view, auto& field) {
         sum += MinSize<std::remove_cvref_t<decltype(field)>>();
       });
       return sum;
@@ -126,7 +126,7 @@ class Reader {
     } else if constexpr (kIsNumber<T>) {
       TakeRun(&value, 1);
     } else {
-      T::VisitFields(value, [this](std::string_view, auto& field, auto...) { this->Take(field); });
+      VisitFields(value, [this](std::string_view, auto& field) { this->Take(field); });
     }
   }
   void Take(std::string& text);

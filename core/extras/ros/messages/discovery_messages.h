@@ -9,7 +9,7 @@
 #include "core/extras/ros/messages/message_type.h"
 
 // Messages of ROS 2's package rmw_dds_common, by which participants tell the names of their nodes
-// on the topic `ros_discovery_info`. VisitFields() as in geometry_messages.h.
+// on the topic `ros_discovery_info`. `kFields` as in geometry_messages.h.
 
 namespace railcast::ros {
 
@@ -21,39 +21,32 @@ inline constexpr std::size_t kHumbleGidSize = 24;
 template <std::size_t kSize>
 struct Gid {
   static constexpr std::string_view kName = "rmw_dds_common/msg/Gid";
+  static constexpr std::array kFields = {"data"};
   std::array<std::uint8_t, kSize> data{};  ///< `char` in the .msg file, which is uint8 in IDL.
 
-  static void VisitFields(auto& self, auto&& visit) { visit("data", self.data); }
   bool operator==(const Gid&) const = default;
 };
 
 template <std::size_t kSize>
 struct NodeEntitiesInfo {
   static constexpr std::string_view kName = "rmw_dds_common/msg/NodeEntitiesInfo";
+  static constexpr std::array kFields = {"node_namespace", "node_name", "reader_gid_seq",
+                                         "writer_gid_seq"};
   BoundedString<256> node_namespace;  ///< "/"
   BoundedString<256> node_name;
   std::vector<Gid<kSize>> reader_gid_seq;
   std::vector<Gid<kSize>> writer_gid_seq;
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("node_namespace", self.node_namespace);
-    visit("node_name", self.node_name);
-    visit("reader_gid_seq", self.reader_gid_seq);
-    visit("writer_gid_seq", self.writer_gid_seq);
-  }
   bool operator==(const NodeEntitiesInfo&) const = default;
 };
 
 template <std::size_t kSize = kGidSize>
 struct ParticipantEntitiesInfo {
   static constexpr std::string_view kName = "rmw_dds_common/msg/ParticipantEntitiesInfo";
+  static constexpr std::array kFields = {"gid", "node_entities_info_seq"};
   Gid<kSize> gid;  ///< Of the participant.
   std::vector<NodeEntitiesInfo<kSize>> node_entities_info_seq;
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("gid", self.gid);
-    visit("node_entities_info_seq", self.node_entities_info_seq);
-  }
   bool operator==(const ParticipantEntitiesInfo&) const = default;
 };
 

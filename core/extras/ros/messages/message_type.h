@@ -8,6 +8,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/extras/ros/messages/named_fields.h"
+
 namespace railcast::ros {
 
 /// What a middleware, a bag and their readers have to know of a type of messages.
@@ -132,14 +134,17 @@ void Describe(std::vector<MessageDescription>& descriptions) {
     own.constants.assign(Message::kConstants.begin(), Message::kConstants.end());
   }
   Message message;
-  Message::VisitFields(
-      message, [&own](std::string_view name, auto& field, std::string_view default_value = {}) {
-        using Values = Element<std::remove_cvref_t<decltype(field)>>;
-        own.fields.push_back({name, kTypeText<typename Values::Type>, Values::kIsSequence,
-                              Values::kArraySize, default_value});
-      });
+  VisitFields(message, [&own](std::string_view name, auto& field) {
+    using Values = Element<std::remove_cvref_t<decltype(field)>>;
+    std::string_view default_value;
+    if constexpr (requires { Message::kDefaults; }) {
+      default_value = Message::kDefaults[own.fields.size()];
+    }
+    own.fields.push_back({name, kTypeText<typename Values::Type>, Values::kIsSequence,
+                          Values::kArraySize, default_value});
+  });
   descriptions.push_back(std::move(own));
-  Message::VisitFields(message, [&descriptions](std::string_view, auto& field, auto...) {
+  VisitFields(message, [&descriptions](std::string_view, auto& field) {
     using Values = Element<std::remove_cvref_t<decltype(field)>>;
     DescribeContained<typename Values::Type>(descriptions);
   });
@@ -147,8 +152,8 @@ void Describe(std::vector<MessageDescription>& descriptions) {
 
 }  // namespace message_type
 
-/// What is to be known of a type of messages, all of it from the type's `kName`, `kConstants` and
-/// VisitFields().
+/// What is to be known of a type of messages, all of it from the type's `kName`, `kConstants`,
+/// `kFields` and `kDefaults`.
 template <typename Message>
 [[nodiscard]] const MessageType& TypeOf() {
   static const MessageType type = [] {

@@ -10,37 +10,31 @@
 #include "core/extras/ros/messages/message_type.h"
 
 // Messages of Foxglove's package foxglove_msgs that describe what a 3D view shows beside clouds.
-// VisitFields() as in geometry_messages.h. Lengths in metres.
+// `kFields` as in geometry_messages.h. Lengths in metres.
 
 namespace railcast::ros {
 
 struct Color {
   static constexpr std::string_view kName = "foxglove_msgs/msg/Color";
+  static constexpr std::array kFields = {"r", "g", "b", "a"};
   double r{}, g{}, b{}, a{};  ///< 0 to 1
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("r", self.r);
-    visit("g", self.g);
-    visit("b", self.b);
-    visit("a", self.a);
-  }
   bool operator==(const Color&) const = default;
 };
 
 struct KeyValuePair {
   static constexpr std::string_view kName = "foxglove_msgs/msg/KeyValuePair";
+  static constexpr std::array kFields = {"key", "value"};
   std::string key;
   std::string value;
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("key", self.key);
-    visit("value", self.value);
-  }
   bool operator==(const KeyValuePair&) const = default;
 };
 
 struct ArrowPrimitive {
   static constexpr std::string_view kName = "foxglove_msgs/msg/ArrowPrimitive";
+  static constexpr std::array kFields = {"pose",        "shaft_length",  "shaft_diameter",
+                                         "head_length", "head_diameter", "color"};
   Pose pose;
   double shaft_length_m{};
   double shaft_diameter_m{};
@@ -48,65 +42,45 @@ struct ArrowPrimitive {
   double head_diameter_m{};
   Color color;
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("pose", self.pose);
-    visit("shaft_length", self.shaft_length_m);
-    visit("shaft_diameter", self.shaft_diameter_m);
-    visit("head_length", self.head_length_m);
-    visit("head_diameter", self.head_diameter_m);
-    visit("color", self.color);
-  }
   bool operator==(const ArrowPrimitive&) const = default;
 };
 
 struct CubePrimitive {
   static constexpr std::string_view kName = "foxglove_msgs/msg/CubePrimitive";
+  static constexpr std::array kFields = {"pose", "size", "color"};
   Pose pose;
   RosVector3 size;
   Color color;
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("pose", self.pose);
-    visit("size", self.size);
-    visit("color", self.color);
-  }
   bool operator==(const CubePrimitive&) const = default;
 };
 
 struct SpherePrimitive {
   static constexpr std::string_view kName = "foxglove_msgs/msg/SpherePrimitive";
+  static constexpr std::array kFields = {"pose", "size", "color"};
   Pose pose;
   RosVector3 size;
   Color color;
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("pose", self.pose);
-    visit("size", self.size);
-    visit("color", self.color);
-  }
   bool operator==(const SpherePrimitive&) const = default;
 };
 
 struct CylinderPrimitive {
   static constexpr std::string_view kName = "foxglove_msgs/msg/CylinderPrimitive";
+  static constexpr std::array kFields = {"pose", "size", "bottom_scale", "top_scale", "color"};
   Pose pose;
   RosVector3 size;
   double bottom_scale{};
   double top_scale{};
   Color color;
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("pose", self.pose);
-    visit("size", self.size);
-    visit("bottom_scale", self.bottom_scale);
-    visit("top_scale", self.top_scale);
-    visit("color", self.color);
-  }
   bool operator==(const CylinderPrimitive&) const = default;
 };
 
 struct LinePrimitive {
   static constexpr std::string_view kName = "foxglove_msgs/msg/LinePrimitive";
+  static constexpr std::array kFields = {"type",   "pose",  "thickness", "scale_invariant",
+                                         "points", "color", "colors",    "indices"};
   static constexpr std::uint8_t kLineStrip = 0;
   static constexpr auto kConstants = std::to_array<MessageConstant>({
       {"uint8", "LINE_STRIP", kLineStrip},
@@ -122,39 +96,25 @@ struct LinePrimitive {
   std::vector<Color> colors;
   std::vector<std::uint32_t> indices;
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("type", self.type);
-    visit("pose", self.pose);
-    visit("thickness", self.thickness);
-    visit("scale_invariant", self.scale_invariant);
-    visit("points", self.points);
-    visit("color", self.color);
-    visit("colors", self.colors);
-    visit("indices", self.indices);
-  }
   bool operator==(const LinePrimitive&) const = default;
 };
 
 struct TriangleListPrimitive {
   static constexpr std::string_view kName = "foxglove_msgs/msg/TriangleListPrimitive";
+  static constexpr std::array kFields = {"pose", "points", "color", "colors", "indices"};
   Pose pose;
   std::vector<Point> points;
   Color color;
   std::vector<Color> colors;
   std::vector<std::uint32_t> indices;
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("pose", self.pose);
-    visit("points", self.points);
-    visit("color", self.color);
-    visit("colors", self.colors);
-    visit("indices", self.indices);
-  }
   bool operator==(const TriangleListPrimitive&) const = default;
 };
 
 struct TextPrimitive {
   static constexpr std::string_view kName = "foxglove_msgs/msg/TextPrimitive";
+  static constexpr std::array kFields = {"pose",  "billboard", "font_size", "scale_invariant",
+                                         "color", "text"};
   Pose pose;
   bool billboard{};  ///< Whether the text always faces the viewer.
   double font_size{};
@@ -162,19 +122,13 @@ struct TextPrimitive {
   Color color;
   std::string text;
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("pose", self.pose);
-    visit("billboard", self.billboard);
-    visit("font_size", self.font_size);
-    visit("scale_invariant", self.scale_invariant);
-    visit("color", self.color);
-    visit("text", self.text);
-  }
   bool operator==(const TextPrimitive&) const = default;
 };
 
 struct ModelPrimitive {
   static constexpr std::string_view kName = "foxglove_msgs/msg/ModelPrimitive";
+  static constexpr std::array kFields = {"pose", "scale",      "color", "override_color",
+                                         "url",  "media_type", "data"};
   Pose pose;
   RosVector3 scale;
   Color color;
@@ -183,21 +137,15 @@ struct ModelPrimitive {
   std::string media_type;
   std::vector<std::uint8_t> data;
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("pose", self.pose);
-    visit("scale", self.scale);
-    visit("color", self.color);
-    visit("override_color", self.override_color);
-    visit("url", self.url);
-    visit("media_type", self.media_type);
-    visit("data", self.data);
-  }
   bool operator==(const ModelPrimitive&) const = default;
 };
 
 /// Something that a view shows until another entity of the same id replaces it.
 struct SceneEntity {
   static constexpr std::string_view kName = "foxglove_msgs/msg/SceneEntity";
+  static constexpr std::array kFields = {
+      "timestamp", "frame_id", "id",        "lifetime", "frame_locked", "metadata", "arrows",
+      "cubes",     "spheres",  "cylinders", "lines",    "triangles",    "texts",    "models"};
   Time timestamp;
   std::string frame_id;
   std::string id;
@@ -213,27 +161,12 @@ struct SceneEntity {
   std::vector<TextPrimitive> texts;
   std::vector<ModelPrimitive> models;
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("timestamp", self.timestamp);
-    visit("frame_id", self.frame_id);
-    visit("id", self.id);
-    visit("lifetime", self.lifetime);
-    visit("frame_locked", self.frame_locked);
-    visit("metadata", self.metadata);
-    visit("arrows", self.arrows);
-    visit("cubes", self.cubes);
-    visit("spheres", self.spheres);
-    visit("cylinders", self.cylinders);
-    visit("lines", self.lines);
-    visit("triangles", self.triangles);
-    visit("texts", self.texts);
-    visit("models", self.models);
-  }
   bool operator==(const SceneEntity&) const = default;
 };
 
 struct SceneEntityDeletion {
   static constexpr std::string_view kName = "foxglove_msgs/msg/SceneEntityDeletion";
+  static constexpr std::array kFields = {"timestamp", "type", "id"};
   static constexpr std::uint8_t kMatchingId = 0;
   static constexpr std::uint8_t kAll = 1;
   static constexpr auto kConstants = std::to_array<MessageConstant>({
@@ -244,23 +177,15 @@ struct SceneEntityDeletion {
   std::uint8_t type{};  ///< One of the constants.
   std::string id;
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("timestamp", self.timestamp);
-    visit("type", self.type);
-    visit("id", self.id);
-  }
   bool operator==(const SceneEntityDeletion&) const = default;
 };
 
 struct SceneUpdate {
   static constexpr std::string_view kName = "foxglove_msgs/msg/SceneUpdate";
+  static constexpr std::array kFields = {"deletions", "entities"};
   std::vector<SceneEntityDeletion> deletions;
   std::vector<SceneEntity> entities;
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("deletions", self.deletions);
-    visit("entities", self.entities);
-  }
   bool operator==(const SceneUpdate&) const = default;
 };
 

@@ -9,12 +9,13 @@
 #include "core/extras/ros/messages/geometry_messages.h"
 #include "core/extras/ros/messages/message_type.h"
 
-// Messages of ROS 2's package sensor_msgs. VisitFields() as in geometry_messages.h.
+// Messages of ROS 2's package sensor_msgs. `kFields` as in geometry_messages.h.
 
 namespace railcast::ros {
 
 struct PointField {
   static constexpr std::string_view kName = "sensor_msgs/msg/PointField";
+  static constexpr std::array kFields = {"name", "offset", "datatype", "count"};
   static constexpr std::uint8_t kInt8 = 1;
   static constexpr std::uint8_t kUint8 = 2;
   static constexpr std::uint8_t kInt16 = 3;
@@ -38,17 +39,14 @@ struct PointField {
   std::uint8_t datatype{};  ///< One of the constants.
   std::uint32_t count{};
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("name", self.name);
-    visit("offset", self.offset);
-    visit("datatype", self.datatype);
-    visit("count", self.count);
-  }
   bool operator==(const PointField&) const = default;
 };
 
 struct PointCloud2 {
   static constexpr std::string_view kName = "sensor_msgs/msg/PointCloud2";
+  static constexpr std::array kFields = {"header",   "height",       "width",
+                                         "fields",   "is_bigendian", "point_step",
+                                         "row_step", "data",         "is_dense"};
   Header header;
   std::uint32_t height{};  ///< 1 = unorganised.
   std::uint32_t width{};
@@ -59,22 +57,18 @@ struct PointCloud2 {
   std::vector<std::uint8_t> data;
   bool is_dense{};  ///< Whether no point is invalid (NaN).
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("header", self.header);
-    visit("height", self.height);
-    visit("width", self.width);
-    visit("fields", self.fields);
-    visit("is_bigendian", self.is_bigendian);
-    visit("point_step", self.point_step);
-    visit("row_step", self.row_step);
-    visit("data", self.data);
-    visit("is_dense", self.is_dense);
-  }
   bool operator==(const PointCloud2&) const = default;
 };
 
 struct Imu {
   static constexpr std::string_view kName = "sensor_msgs/msg/Imu";
+  static constexpr std::array kFields = {"header",
+                                         "orientation",
+                                         "orientation_covariance",
+                                         "angular_velocity",
+                                         "angular_velocity_covariance",
+                                         "linear_acceleration",
+                                         "linear_acceleration_covariance"};
   Header header;
   Quaternion orientation;
   /// As all covariances here: rows of x, y, z; 0 = unknown, first element -1 = not measured.
@@ -84,20 +78,12 @@ struct Imu {
   RosVector3 linear_acceleration;
   std::array<double, 9> linear_acceleration_covariance{};
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("header", self.header);
-    visit("orientation", self.orientation);
-    visit("orientation_covariance", self.orientation_covariance);
-    visit("angular_velocity", self.angular_velocity);
-    visit("angular_velocity_covariance", self.angular_velocity_covariance);
-    visit("linear_acceleration", self.linear_acceleration);
-    visit("linear_acceleration_covariance", self.linear_acceleration_covariance);
-  }
   bool operator==(const Imu&) const = default;
 };
 
 struct NavSatStatus {
   static constexpr std::string_view kName = "sensor_msgs/msg/NavSatStatus";
+  static constexpr std::array kFields = {"status", "service"};
   static constexpr std::int8_t kNoFix = -1;
   static constexpr std::int8_t kFix = 0;
   static constexpr std::uint16_t kGps = 1;
@@ -114,15 +100,18 @@ struct NavSatStatus {
   std::int8_t status{};
   std::uint16_t service{};
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("status", self.status);
-    visit("service", self.service);
-  }
   bool operator==(const NavSatStatus&) const = default;
 };
 
 struct NavSatFix {
   static constexpr std::string_view kName = "sensor_msgs/msg/NavSatFix";
+  static constexpr std::array kFields = {"header",
+                                         "status",
+                                         "latitude",
+                                         "longitude",
+                                         "altitude",
+                                         "position_covariance",
+                                         "position_covariance_type"};
   static constexpr std::uint8_t kCovarianceUnknown = 0;
   static constexpr std::uint8_t kCovarianceApproximated = 1;
   static constexpr std::uint8_t kCovarianceDiagonalKnown = 2;
@@ -141,20 +130,13 @@ struct NavSatFix {
   std::array<double, 9> position_covariance{};  ///< m^2; east, north, up.
   std::uint8_t position_covariance_type{};
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("header", self.header);
-    visit("status", self.status);
-    visit("latitude", self.latitude);
-    visit("longitude", self.longitude);
-    visit("altitude", self.altitude);
-    visit("position_covariance", self.position_covariance);
-    visit("position_covariance_type", self.position_covariance_type);
-  }
   bool operator==(const NavSatFix&) const = default;
 };
 
 struct Image {
   static constexpr std::string_view kName = "sensor_msgs/msg/Image";
+  static constexpr std::array kFields = {"header",       "height", "width", "encoding",
+                                         "is_bigendian", "step",   "data"};
   Header header;
   std::uint32_t height{};
   std::uint32_t width{};
@@ -163,52 +145,36 @@ struct Image {
   std::uint32_t step{};  ///< Bytes of a row.
   std::vector<std::uint8_t> data;
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("header", self.header);
-    visit("height", self.height);
-    visit("width", self.width);
-    visit("encoding", self.encoding);
-    visit("is_bigendian", self.is_bigendian);
-    visit("step", self.step);
-    visit("data", self.data);
-  }
   bool operator==(const Image&) const = default;
 };
 
 struct CompressedImage {
   static constexpr std::string_view kName = "sensor_msgs/msg/CompressedImage";
+  static constexpr std::array kFields = {"header", "format", "data"};
   Header header;
   std::string format;  ///< "jpeg" or "png"
   std::vector<std::uint8_t> data;
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("header", self.header);
-    visit("format", self.format);
-    visit("data", self.data);
-  }
   bool operator==(const CompressedImage&) const = default;
 };
 
 struct RegionOfInterest {
   static constexpr std::string_view kName = "sensor_msgs/msg/RegionOfInterest";
+  static constexpr std::array kFields = {"x_offset", "y_offset", "height", "width", "do_rectify"};
   std::uint32_t x_offset{};
   std::uint32_t y_offset{};
   std::uint32_t height{};
   std::uint32_t width{};
   bool do_rectify{};
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("x_offset", self.x_offset);
-    visit("y_offset", self.y_offset);
-    visit("height", self.height);
-    visit("width", self.width);
-    visit("do_rectify", self.do_rectify);
-  }
   bool operator==(const RegionOfInterest&) const = default;
 };
 
 struct CameraInfo {
   static constexpr std::string_view kName = "sensor_msgs/msg/CameraInfo";
+  static constexpr std::array kFields = {"header",    "height",    "width", "distortion_model",
+                                         "d",         "k",         "r",     "p",
+                                         "binning_x", "binning_y", "roi"};
   Header header;
   std::uint32_t height{};
   std::uint32_t width{};
@@ -221,19 +187,6 @@ struct CameraInfo {
   std::uint32_t binning_y{};
   RegionOfInterest roi;
 
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("header", self.header);
-    visit("height", self.height);
-    visit("width", self.width);
-    visit("distortion_model", self.distortion_model);
-    visit("d", self.d);
-    visit("k", self.k);
-    visit("r", self.r);
-    visit("p", self.p);
-    visit("binning_x", self.binning_x);
-    visit("binning_y", self.binning_y);
-    visit("roi", self.roi);
-  }
   bool operator==(const CameraInfo&) const = default;
 };
 

@@ -79,7 +79,7 @@ template <typename Record>
 void AddRecord(const std::string& type, ByteSpan content, json& records) {
   const auto record = ReadRecord<Record>(content);
   JsonMaker maker;
-  Record::Fields(record, maker);
+  VisitFields(record, maker);
   records.push_back(maker.Made(type));
 }
 
@@ -165,7 +165,7 @@ template <typename Record>
 void WriteRecord(const json& record, McapWriter& writer) {
   JsonTaker taker(record);
   Record made;
-  Record::Fields(made, taker);
+  VisitFields(made, taker);
   writer.Write(made);
 }
 

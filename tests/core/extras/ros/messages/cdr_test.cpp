@@ -180,14 +180,14 @@ TEST(Cdr, RefusesEveryTruncation) {
 
 struct Unbounded {
   static constexpr std::string_view kName = "made_up/msg/Unbounded";
+  static constexpr std::array kFields = {"text"};
   std::string text;
-  static void VisitFields(auto& self, auto&& visit) { visit("text", self.text); }
 };
 
 struct Bounded {
   static constexpr std::string_view kName = "made_up/msg/Bounded";
+  static constexpr std::array kFields = {"text"};
   BoundedString<256> text;
-  static void VisitFields(auto& self, auto&& visit) { visit("text", self.text); }
 };
 
 TEST(ParticipantEntitiesInfo, HasTheHashOfIronAndLater) {

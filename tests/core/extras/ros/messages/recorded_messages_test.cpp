@@ -50,13 +50,16 @@ TEST(RecordedMessages, FoxglovesPointCloudIsReadAndWrittenAlike) {
 /// Messages in the bags of rosbag2's tests.
 struct String {
   static constexpr std::string_view kName = "std_msgs/msg/String";
+  static constexpr std::array kFields = {"data"};
   std::string data;
-
-  static void VisitFields(auto& self, auto&& visit) { visit("data", self.data); }
 };
 
 struct BasicTypes {
   static constexpr std::string_view kName = "test_msgs/msg/BasicTypes";
+  static constexpr std::array kFields = {
+      "bool_value",   "byte_value",  "char_value",  "float32_value", "float64_value",
+      "int8_value",   "uint8_value", "int16_value", "uint16_value",  "int32_value",
+      "uint32_value", "int64_value", "uint64_value"};
   bool bool_value{};
   std::uint8_t byte_value{}, char_value{};
   float float32_value{};
@@ -69,22 +72,6 @@ struct BasicTypes {
   std::uint32_t uint32_value{};
   std::int64_t int64_value{};
   std::uint64_t uint64_value{};
-
-  static void VisitFields(auto& self, auto&& visit) {
-    visit("bool_value", self.bool_value);
-    visit("byte_value", self.byte_value);
-    visit("char_value", self.char_value);
-    visit("float32_value", self.float32_value);
-    visit("float64_value", self.float64_value);
-    visit("int8_value", self.int8_value);
-    visit("uint8_value", self.uint8_value);
-    visit("int16_value", self.int16_value);
-    visit("uint16_value", self.uint16_value);
-    visit("int32_value", self.int32_value);
-    visit("uint32_value", self.uint32_value);
-    visit("int64_value", self.int64_value);
-    visit("uint64_value", self.uint64_value);
-  }
 };
 
 // Reads and writes the messages of a type in a bag, and returns them.
