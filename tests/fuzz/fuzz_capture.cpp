@@ -16,6 +16,7 @@
 #include "core/extras/packets/spinning/spinning_decoder.h"
 #include "core/extras/packets/spinning/spinning_packet.h"
 #include "tests/fuzz/fuzz_target.h"
+#include "tests/support/decode_packet.h"
 
 namespace railcast {
 namespace {
@@ -37,7 +38,7 @@ void DecodeAll(const SpinningModel& model, std::span<const char> bytes) {
   std::vector<SensorTurn> turns;
   while (!bytes.empty()) {
     const auto packet = bytes.first(std::min(bytes.size(), model.packet_size));
-    (void)decoder.Decode(packet, turns);
+    (void)DecodePacket(decoder, packet, turns);
     bytes = bytes.subspan(packet.size());
   }
   turns.push_back(decoder.TakeUnfinished());

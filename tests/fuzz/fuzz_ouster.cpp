@@ -11,6 +11,7 @@
 #include "core/scenario/ouster_metadata.h"
 #include "railcast/lidar.h"
 #include "tests/fuzz/fuzz_target.h"
+#include "tests/support/decode_packet.h"
 #include "tests/support/ouster_metadata_text.h"
 
 namespace railcast {
@@ -37,7 +38,7 @@ void DecodePackets(const OusterMetadata& metadata, std::span<const char> bytes) 
   std::vector<SensorTurn> turns;
   while (!bytes.empty()) {
     const auto packet = bytes.first(std::min(bytes.size(), decoder.layout().packet_size()));
-    static_cast<void>(decoder.Decode(packet, turns));
+    static_cast<void>(DecodePacket(decoder, packet, turns));
     bytes = bytes.subspan(packet.size());
   }
   turns.push_back(decoder.TakeUnfinished());

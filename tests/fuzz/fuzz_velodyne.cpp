@@ -10,6 +10,7 @@
 #include "core/extras/packets/pcap/pcap_reader.h"
 #include "core/extras/packets/spinning/spinning_decoder.h"
 #include "tests/fuzz/fuzz_target.h"
+#include "tests/support/decode_packet.h"
 
 namespace railcast {
 namespace {
@@ -35,7 +36,7 @@ void DecodePackets(std::string_view name, std::span<const char> bytes) {
   std::vector<SensorTurn> turns;
   while (!bytes.empty()) {
     const auto packet = bytes.first(std::min(bytes.size(), model.packet_size));
-    (void)decoder.Decode(packet, turns);
+    (void)DecodePacket(decoder, packet, turns);
     bytes = bytes.subspan(packet.size());
   }
   turns.push_back(decoder.TakeUnfinished());
@@ -52,7 +53,9 @@ void ReadVelodyneCapture(std::span<const char> bytes) {
   try {
     PcapReader reader(stream, "fuzz");
     while (const auto datagram = reader.Next()) {
-      for (SpinningDecoder& decoder : decoders) (void)decoder.Decode(datagram->payload, turns);
+      for (SpinningDecoder& decoder : decoders) {
+        (void)DecodePacket(decoder, datagram->payload, turns);
+      }
     }
   } catch (const InputError&) {
   }

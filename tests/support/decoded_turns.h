@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/extras/packets/spinning/sensor_turn.h"
+#include "tests/support/decode_packet.h"
 
 namespace railcast {
 
@@ -14,7 +15,7 @@ namespace railcast {
 template <typename Decoder, typename Packets>
 [[nodiscard]] std::vector<SensorTurn> TurnsOfPackets(Decoder& decoder, const Packets& packets) {
   std::vector<SensorTurn> turns;
-  for (const auto& packet : packets) EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
+  for (const auto& packet : packets) EXPECT_EQ(DecodePacket(decoder, packet, turns), std::nullopt);
   turns.push_back(decoder.TakeUnfinished());
   return turns;
 }

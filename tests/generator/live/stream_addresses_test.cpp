@@ -12,6 +12,7 @@
 #include "railcast/io/stream.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/live/live_process.h"
+#include "tests/support/decode_packet.h"
 #include "tests/support/loopback.h"
 
 namespace railcast {
@@ -71,7 +72,7 @@ TEST(StreamAddresses, MayDifferFromSensorToSensor) {
     ASSERT_TRUE(from_host.has_value());
     EXPECT_EQ(std::string(from_host->bytes.begin(), from_host->bytes.end()), bytes);
     EXPECT_TRUE(from_host->from.is_loopback());
-    EXPECT_EQ(xt16.Decode(side.Receive(kPatience_ms).value().bytes, turns), std::nullopt);
+    EXPECT_EQ(DecodePacket(xt16, side.Receive(kPatience_ms).value().bytes, turns), std::nullopt);
   }
   const Ended ended = stream.Wait();
   EXPECT_EQ(ended.status, 0) << ended.said;
@@ -149,7 +150,8 @@ double AheadOfDay_s(const std::string& clock) {
   Stream stream(scenario + " --duration 0.2 --clock " + clock);
   SpinningDecoder decoder(*FindSpinningModel("xt16"));
   std::vector<SensorTurn> turns;
-  EXPECT_EQ(decoder.Decode(receiver.Receive(kPatience_ms).value().bytes, turns), std::nullopt);
+  EXPECT_EQ(DecodePacket(decoder, receiver.Receive(kPatience_ms).value().bytes, turns),
+            std::nullopt);
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   const Ended ended = stream.Wait();
   EXPECT_EQ(ended.status, 0) << ended.said;

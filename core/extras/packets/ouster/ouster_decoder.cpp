@@ -121,16 +121,6 @@ std::optional<std::string> OusterDecoder::RefuseColumns(std::span<const char> pa
   return std::nullopt;
 }
 
-std::optional<std::string> OusterDecoder::Decode(std::span<const char> payload,
-                                                 std::vector<SensorTurn>& turns) {
-  if (auto refusal = Refuse(payload)) {
-    ++num_packets_;
-    return refusal;
-  }
-  TakePacket(payload, turns);
-  return std::nullopt;
-}
-
 void OusterDecoder::TakePacket(std::span<const char> payload, std::vector<SensorTurn>& turns) {
   ++num_packets_;
   const std::uint32_t frame_id = layout_.HeaderOf(payload).frame_id;

@@ -1,5 +1,6 @@
 #include "core/extras/packets/ouster/ouster_packet.h"
 
+#include <boost/crc.hpp>
 #include <cstring>
 
 #include "core/extras/packets/velodyne/velodyne_packet.h"
@@ -145,19 +146,6 @@ void StoreLowRate(const OusterPixel& pixel, bool is_dual, char* place) {
   if (is_dual) StoreLowRateReturn(pixel.returns[1], place + 4);
 }
 
-std::array<std::uint64_t, 256> ChecksumTable() {
-  constexpr std::uint64_t kReversedPolynomial = 0xC96C5795D7870F42;
-  std::array<std::uint64_t, 256> table{};
-  for (std::size_t byte = 0; byte < table.size(); ++byte) {
-    std::uint64_t rest = byte;
-    for (int bit = 0; bit < 8; ++bit) {
-      rest = rest >> 1U ^ ((rest & 1U) != 0 ? kReversedPolynomial : 0);
-    }
-    table[byte] = rest;
-  }
-  return table;
-}
-
 }  // namespace
 
 OusterLayout::OusterLayout(const OusterMetadata& metadata)
@@ -279,12 +267,10 @@ void OusterLayout::StorePixel(const OusterPixel& pixel,
 }
 
 std::uint64_t OusterChecksum(std::span<const char> bytes) {
-  static const std::array<std::uint64_t, 256> table = ChecksumTable();
-  std::uint64_t checksum = ~std::uint64_t{0};
-  for (const char byte : bytes) {
-    checksum = table[(checksum ^ static_cast<unsigned char>(byte)) & 0xFFU] ^ checksum >> 8U;
-  }
-  return ~checksum;
+  constexpr std::uint64_t kAllBits = ~std::uint64_t{0};
+  boost::crc_optimal<64, 0x42F0E1EBA9EA3693, kAllBits, kAllBits, true, true> crc;
+  crc.process_bytes(bytes.data(), bytes.size());
+  return crc.checksum();
 }
 
 bool StatesChecksum(std::span<const char> packet) {

@@ -264,13 +264,6 @@ std::int64_t TimeOf(pcap_t* pcap, const pcap_pkthdr& header, const std::string& 
   return time_s * kNsPerS + header.ts.tv_usec;
 }
 
-std::FILE* Open(const std::filesystem::path& file) {
-  CheckIsReadable(file);
-  std::FILE* const stream = std::fopen(file.c_str(), "rbe");
-  if (stream == nullptr) throw FileError(file, errno);
-  return stream;
-}
-
 }  // namespace
 
 std::optional<CapturedDatagram> FindDatagram(std::span<const char> frame) {
@@ -281,30 +274,29 @@ std::optional<CapturedDatagram> FindDatagram(std::span<const char> frame) {
   return datagram;
 }
 
-struct PcapReader::Capture {
-  pcap_t* pcap{};
+std::FILE* OpenStream(const std::filesystem::path& file) {
+  CheckIsReadable(file);
+  std::FILE* const stream = std::fopen(file.c_str(), "rbe");
+  if (stream == nullptr) throw FileError(file, errno);
+  return stream;
+}
 
-  Capture() = default;
-  Capture(const Capture&) = delete;
-  Capture& operator=(const Capture&) = delete;
-  ~Capture() {
-    if (pcap != nullptr) pcap_close(pcap);
-  }
-};
+void PcapReader::Close::operator()(pcap* capture) const {
+  pcap_close(capture);
+}
 
 PcapReader::PcapReader(const std::filesystem::path& file)
-    : PcapReader(Open(file), ShownPath(file)) {}
+    : PcapReader(OpenStream(file), ShownPath(file)) {}
 
-PcapReader::PcapReader(std::FILE* stream, std::string name)
-    : name_(std::move(name)), capture_(std::make_unique<Capture>()) {
+PcapReader::PcapReader(std::FILE* stream, std::string name) : name_(std::move(name)) {
   std::array<char, PCAP_ERRBUF_SIZE> reason{};
-  capture_->pcap =
-      pcap_fopen_offline_with_tstamp_precision(stream, PCAP_TSTAMP_PRECISION_NANO, reason.data());
-  if (capture_->pcap == nullptr) {
+  capture_.reset(
+      pcap_fopen_offline_with_tstamp_precision(stream, PCAP_TSTAMP_PRECISION_NANO, reason.data()));
+  if (!capture_) {
     std::fclose(stream);
     throw InputError(name_ + ": " + reason.data());
   }
-  const int link = pcap_datalink(capture_->pcap);
+  const int link = pcap_datalink(capture_.get());
   if (IsKnownLink(link)) return;
   const char* const link_name = pcap_datalink_val_to_name(link);
   throw InputError(name_ +
@@ -313,14 +305,12 @@ PcapReader::PcapReader(std::FILE* stream, std::string name)
                    (link_name != nullptr ? std::string(link_name) : NumberText(link)) + ")");
 }
 
-PcapReader::~PcapReader() = default;
-
 std::uint64_t PcapReader::PlaceOf(std::span<const char> packet, const std::string& place) const {
   // Of classic captures a packet ends where libpcap stands, and so does its block in pcapng, whose
   // last four bytes are its length, and from whose begin on the packet is 28 bytes away, or 12 in a
   // simple packet block (IETF, draft-tuexen-opsawg-pcapng, 4.3 and 4.4).
   constexpr std::array<std::uint64_t, 2> kBlockHeads = {28, 12};
-  std::FILE* const stream = pcap_file(capture_->pcap);
+  std::FILE* const stream = pcap_file(capture_.get());
   const auto end = static_cast<std::uint64_t>(::ftello(stream));
   const int file = ::fileno(stream);
   std::vector<std::uint64_t> candidates = {end - packet.size()};
@@ -346,21 +336,21 @@ std::optional<CapturedDatagram> PcapReader::Next() {
   while (true) {
     pcap_pkthdr* header = nullptr;
     const u_char* bytes = nullptr;
-    const int status = pcap_next_ex(capture_->pcap, &header, &bytes);
+    const int status = pcap_next_ex(capture_.get(), &header, &bytes);
     if (status == PCAP_ERROR_BREAK) return std::nullopt;
     const std::size_t packet = num_frames_++;
     const std::string place = name_ + ": packet " + NumberText(packet) + ": ";
     if (status != 1) {
-      const std::string reason = pcap_geterr(capture_->pcap);
+      const std::string reason = pcap_geterr(capture_.get());
       // libpcap says so, too, where the file begins no packet that could be one.
-      if (!reason.starts_with("truncated") || std::feof(pcap_file(capture_->pcap)) == 0) {
+      if (!reason.starts_with("truncated") || std::feof(pcap_file(capture_.get())) == 0) {
         throw InputError(place + reason);
       }
       cut_ = {.number = 1, .first = packet};
       return std::nullopt;
     }
     const std::span<const char> kept(reinterpret_cast<const char*>(bytes), header->caplen);
-    const FrameContent content = ContentOf(kept, pcap_datalink(capture_->pcap));
+    const FrameContent content = ContentOf(kept, pcap_datalink(capture_.get()));
     auto fragment = FindFragment(content);
     const bool is_datagram = fragment && (!IsWhole(*fragment) || DatagramIn(fragment->bytes));
     if (!is_datagram && header->caplen < header->len && MayBeginDatagram(content)) {
@@ -378,7 +368,7 @@ std::optional<CapturedDatagram> PcapReader::Next() {
       continue;
     }
     fragment->number = packet;
-    const std::int64_t time_ns = TimeOf(capture_->pcap, *header, place);
+    const std::int64_t time_ns = TimeOf(capture_.get(), *header, place);
     if (finds_places_) {
       const auto in_packet = static_cast<std::uint64_t>(fragment->bytes.data() - kept.data());
       fragment->place = PlaceOf(kept, place) + in_packet;

@@ -16,6 +16,8 @@
 #include "railcast/io/endpoint.h"
 #include "railcast/remark.h"
 
+struct pcap;
+
 namespace railcast {
 
 inline constexpr std::size_t kEthernetSize = 14;
@@ -124,6 +126,10 @@ struct CapturedDatagram {
 /// of one.
 [[nodiscard]] std::optional<CapturedDatagram> FindDatagram(std::span<const char> frame);
 
+/// Opens a file for a PcapReader.
+/// @throws InputError as OpenInput() does.
+[[nodiscard]] std::FILE* OpenStream(const std::filesystem::path& file);
+
 /// Reads the UDP datagrams of a capture file, classic pcap or pcapng. Those sent in IP fragments
 /// are put together (IpFragments); those of which fragments are missing are left out.
 ///
@@ -137,7 +143,6 @@ class PcapReader {
   /// @param stream Owned by the reader from here on, and closed even if this throws.
   /// @param name Names the stream in error messages.
   PcapReader(std::FILE* stream, std::string name);
-  ~PcapReader();
   /// Lets Next() say where datagrams stand in the file, which must be a regular one.
   void FindPlaces() { finds_places_ = true; }
   PcapReader(const PcapReader&) = delete;
@@ -154,7 +159,9 @@ class PcapReader {
   [[nodiscard]] std::vector<Remark> remarks() const;
 
  private:
-  struct Capture;
+  struct Close {
+    void operator()(pcap* capture) const;
+  };
   /// The packets of a kind that were left out.
   struct LeftOut {
     std::size_t number{};
@@ -177,7 +184,7 @@ class PcapReader {
   std::size_t num_frames_{};
   LeftOut unknown_;
   LeftOut cut_;
-  std::unique_ptr<Capture> capture_;
+  std::unique_ptr<pcap, Close> capture_;
 };
 
 }  // namespace railcast

@@ -77,18 +77,9 @@ std::uint16_t UdpChecksum(const char* udp, std::uint16_t udp_size) {
 
 }  // namespace
 
-struct PcapWriter::Dump {
-  pcap_t* format{};
-  pcap_dumper_t* dumper{};
-
-  Dump() = default;
-  Dump(const Dump&) = delete;
-  Dump& operator=(const Dump&) = delete;
-  ~Dump() {
-    if (dumper != nullptr) pcap_dump_close(dumper);
-    if (format != nullptr) pcap_close(format);
-  }
-};
+void PcapWriter::Close::operator()(pcap_dumper* dumper) const {
+  pcap_dump_close(dumper);
+}
 
 PcapWriter::PcapWriter(std::filesystem::path file,
                        std::uint16_t data_port,
@@ -98,24 +89,22 @@ PcapWriter::PcapWriter(std::filesystem::path file,
       target_(FileToReplace(file_)),
       data_port_(data_port),
       position_port_(position_port),
-      is_ipv6_(is_ipv6),
-      dump_(std::make_unique<Dump>()) {
+      is_ipv6_(is_ipv6) {
   std::FILE* const stream = std::fopen(unfinished().c_str(), "wbe");
   if (stream == nullptr) throw FileError(file_, errno);
   constexpr int kSnapLength = 65535;
-  dump_->format = pcap_open_dead(DLT_EN10MB, kSnapLength);
-  if (dump_->format == nullptr) {
+  const std::unique_ptr<pcap_t, decltype(&pcap_close)> format(
+      pcap_open_dead(DLT_EN10MB, kSnapLength), pcap_close);
+  if (!format) {
     std::fclose(stream);
     throw OutOfMemory("writing " + ShownPath(file_));
   }
-  dump_->dumper = pcap_dump_fopen(dump_->format, stream);
-  if (dump_->dumper != nullptr) return;
+  dumper_.reset(pcap_dump_fopen(format.get(), stream));
+  if (dumper_) return;
   const int error_number = errno;
   std::fclose(stream);
   throw FileError(file_, error_number);
 }
-
-PcapWriter::~PcapWriter() = default;
 
 void PcapWriter::Write(const Datagrams& datagrams, std::span<const Datagrams::Item> items) {
   std::array<char, kEthernetSize + kIpv6HeaderSize + kUdpHeaderSize + kMaxDatagramSize> frame;
@@ -144,12 +133,12 @@ void PcapWriter::Write(const Datagrams& datagrams, std::span<const Datagrams::It
     header.ts.tv_usec = time_us % 1'000'000;
     header.caplen = header.len = static_cast<bpf_u_int32>(udp + udp_size - frame.data());
     // libpcap's functions take the dumper as a byte pointer.
-    pcap_dump(reinterpret_cast<u_char*>(dump_->dumper), &header,
+    pcap_dump(reinterpret_cast<u_char*>(dumper_.get()), &header,
               reinterpret_cast<const u_char*>(frame.data()));
   }
   // Flush after each call, so that a run that is killed leaves all that was written until here.
-  std::FILE* const stream = pcap_dump_file(dump_->dumper);
-  if (pcap_dump_flush(dump_->dumper) == 0 && std::ferror(stream) == 0) {
+  std::FILE* const stream = pcap_dump_file(dumper_.get());
+  if (pcap_dump_flush(dumper_.get()) == 0 && std::ferror(stream) == 0) {
     whole_bytes_ = std::ftell(stream);
     return;
   }
@@ -166,12 +155,12 @@ std::filesystem::path PcapWriter::unfinished() const {
 }
 
 void PcapWriter::Finish() {
-  std::FILE* const stream = pcap_dump_file(dump_->dumper);
-  if (pcap_dump_flush(dump_->dumper) != 0 || ::fsync(::fileno(stream)) != 0 ||
+  std::FILE* const stream = pcap_dump_file(dumper_.get());
+  if (pcap_dump_flush(dumper_.get()) != 0 || ::fsync(::fileno(stream)) != 0 ||
       ::rename(unfinished().c_str(), target_.c_str()) != 0) {
     throw FileError(file_, errno);
   }
-  dump_.reset();
+  dumper_.reset();
 }
 
 }  // namespace railcast

@@ -7,6 +7,8 @@
 
 #include "core/io/datagrams.h"
 
+struct pcap_dumper;
+
 namespace railcast {
 
 /// Writes datagrams as a capture file (classic pcap, Ethernet) of a sensor at 192.168.1.201 that
@@ -28,7 +30,6 @@ class PcapWriter final : public DatagramFile {
              std::uint16_t data_port,
              std::uint16_t position_port,
              bool is_ipv6 = false);
-  ~PcapWriter() override;
   PcapWriter(const PcapWriter&) = delete;
   PcapWriter& operator=(const PcapWriter&) = delete;
 
@@ -40,14 +41,16 @@ class PcapWriter final : public DatagramFile {
   [[nodiscard]] std::filesystem::path unfinished() const override;
 
  private:
-  struct Dump;
+  struct Close {
+    void operator()(pcap_dumper* dumper) const;
+  };
 
   std::filesystem::path file_;
   std::filesystem::path target_;  ///< The file that Finish() replaces.
   std::uint16_t data_port_;
   std::uint16_t position_port_;
   bool is_ipv6_;
-  std::unique_ptr<Dump> dump_;
+  std::unique_ptr<pcap_dumper, Close> dumper_;
   std::int64_t clock_ahead_ns_{};
   std::int64_t whole_bytes_{};  ///< Size of the file after the last complete Write.
 };

@@ -1,12 +1,10 @@
 #include "core/extras/packets/recording/capture_recording.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <deque>
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
 #include "core/extras/packets/pcap/pcap_reader.h"
@@ -89,13 +87,6 @@ class CaptureRecording : public Recording {
   std::uint32_t num_frames_{};
   bool is_at_end_ = false;
 };
-
-std::FILE* OpenStream(const std::filesystem::path& file) {
-  CheckIsReadable(file);
-  std::FILE* const stream = std::fopen(file.c_str(), "rbe");
-  if (stream == nullptr) throw FileError(file, errno);
-  return stream;
-}
 
 /// Reads the correction file of an AT128 that has the capture's name.
 std::shared_ptr<const At128Correction> CorrectionBeside(std::filesystem::path file) {

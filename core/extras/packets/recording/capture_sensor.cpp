@@ -261,19 +261,17 @@ std::optional<CaptureSensor> SensorFinder::Look(std::span<const char> payload) {
   if (load_correction_ && HasHeaderOf(ModelNamed(kAt128Name), payload)) {
     if (const auto correction = load_correction_()) return SensorOf(At128Model(correction));
   }
-  for (std::size_t i = 0; i < probes_.size(); ++i) {
-    const std::span<const char> packet = FirstPacket(payload, probes_[i].packet_size);
-    std::vector<SensorTurn> turns;
-    const auto decode = [&](auto& decoder) { return decoder.Decode(packet, turns); };
-    const auto refusal = std::visit(decode, probes_[i].decoder);
-    // The probe has used the packet, which the caller will decode.
-    if (!refusal) return ReadableSensors(metadata_)[i];
-    const bool is_ouster = std::holds_alternative<OusterDecoder>(probes_[i].decoder);
+  for (const CaptureSensor& probe : probes_) {
+    const std::span<const char> packet = FirstPacket(payload, probe.packet_size);
+    const auto refusal =
+        std::visit([&](const auto& decoder) { return decoder.Refuse(packet); }, probe.decoder);
+    if (!refusal) return probe;
+    const bool is_ouster = std::holds_alternative<OusterDecoder>(probe.decoder);
     if (!is_ouster || !LooksLikeOuster(payload) || !ouster_refusal_.empty()) continue;
-    const bool has_size = payload.size() % probes_[i].packet_size == 0;
+    const bool has_size = payload.size() % probe.packet_size == 0;
     ouster_refusal_ =
         has_size ? *refusal
-                 : "must be " + NumberText(probes_[i].packet_size) + " bytes" + Got(payload.size());
+                 : "must be " + NumberText(probe.packet_size) + " bytes" + Got(payload.size());
   }
   has_seen_ouster_ = has_seen_ouster_ || LooksLikeOuster(payload);
   if (stranger_.empty()) stranger_ = NameOfStranger(payload);

@@ -56,16 +56,6 @@ std::int64_t SpinningDecoder::PacketNs(std::uint32_t us_past_hour) {
   return *last_packet_us_ * kNsPerUs;
 }
 
-std::optional<std::string> SpinningDecoder::Decode(std::span<const char> payload,
-                                                   std::vector<SensorTurn>& turns) {
-  if (auto refusal = Refuse(payload)) {
-    ++num_packets_;
-    return refusal;
-  }
-  TakePacket(payload, turns);
-  return std::nullopt;
-}
-
 std::optional<std::string> SpinningDecoder::Refuse(std::span<const char> payload) const {
   return RefusePacket(model_, payload);
 }

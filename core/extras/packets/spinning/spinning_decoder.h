@@ -29,15 +29,9 @@ class SpinningDecoder {
  public:
   explicit SpinningDecoder(SpinningModel model);
 
-  /// Takes the payload of a data packet and appends the turns that it completes.
-  /// @returns Why the payload was refused, as "rule (got value)", if it was; nothing of a refused
-  ///   payload is used.
-  [[nodiscard]] std::optional<std::string> Decode(std::span<const char> payload,
-                                                  std::vector<SensorTurn>& turns);
-
-  /// Why Decode() would refuse a payload.
+  /// Why a payload is no data packet of the sensor, as "rule (got value)", if it is none.
   [[nodiscard]] std::optional<std::string> Refuse(std::span<const char> payload) const;
-  /// As Decode().
+  /// Takes the payload of a data packet and appends the turns that it completes.
   /// @pre Refuse() does not.
   void TakePacket(std::span<const char> payload, std::vector<SensorTurn>& turns);
   /// @pre As above.

@@ -12,6 +12,7 @@
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/live/live_process.h"
+#include "tests/support/decode_packet.h"
 #include "tests/support/exits_with.h"
 
 namespace railcast {
@@ -81,7 +82,7 @@ TEST(LivePackets, ArriveAtADecoder) {
   for (int i = 0; i < 750; ++i) {
     const auto received = receiver.Receive(kPatience_ms);
     ASSERT_TRUE(received.has_value());
-    EXPECT_EQ(decoder.Decode(received->bytes, turns), std::nullopt);
+    EXPECT_EQ(DecodePacket(decoder, received->bytes, turns), std::nullopt);
   }
   turns.push_back(decoder.TakeUnfinished());
   ASSERT_EQ(turns.size(), 3U);

@@ -13,6 +13,7 @@
 #include "railcast/io/recording.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/live/live_process.h"
+#include "tests/support/decode_packet.h"
 #include "tests/support/exits_with.h"
 #include "tests/support/loopback.h"
 #include "tests/support/ouster_metadata_text.h"
@@ -117,7 +118,7 @@ TEST(StreamOuster, TellsADriverOverHttpWhatItSends) {
   EXPECT_EQ(metadata["config_params"]["udp_port_lidar"], receiver.at().port);
   OusterDecoder decoder(ParseOusterMetadata(asked.said));
   std::vector<SensorTurn> turns;
-  EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
+  EXPECT_EQ(DecodePacket(decoder, packet, turns), std::nullopt);
   Interrupt(pid_file);
   EXPECT_THAT(stream.Wait(), ExitsWith(0, testing::HasSubstr("HTTP at 127.0.0.1:" + port)));
 }
@@ -148,7 +149,7 @@ TEST(StreamOuster, StatesAtomicTimeAndThatItIs) {
   EXPECT_EQ(config["udp_port_lidar"], receiver.at().port);
   OusterDecoder decoder(ParseOusterMetadata(asked.said));
   std::vector<SensorTurn> turns;
-  EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
+  EXPECT_EQ(DecodePacket(decoder, packet, turns), std::nullopt);
   const double ahead_s = 1e-9 * static_cast<double>(decoder.TakeUnfinished().stamp_ns) -
                          std::chrono::duration<double>(now).count();
   EXPECT_LE(ahead_s, 37.0);

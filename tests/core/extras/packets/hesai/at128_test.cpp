@@ -19,6 +19,7 @@
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/support/captures.h"
+#include "tests/support/decode_packet.h"
 #include "tests/support/made_datagrams.h"
 #include "tests/support/pcl_reads.h"
 
@@ -84,7 +85,7 @@ TEST(At128Decoder, PlacesAPointByItsBlockAndTheUnitsCorrection) {
   file[ShiftPlace(true, 5, 33)] = -2;
   SpinningDecoder decoder(At128Model(CorrectionOf(file)));
   std::vector<SensorTurn> turns;
-  ASSERT_EQ(decoder.Decode(MadeAt128Packet(65.0), turns), std::nullopt);
+  ASSERT_EQ(DecodePacket(decoder, MadeAt128Packet(65.0), turns), std::nullopt);
   const SensorTurn turn = decoder.TakeUnfinished();
   ASSERT_EQ(turn.points.size(), 2U);
   ASSERT_EQ(turn.num_columns(), 2U);
@@ -110,7 +111,7 @@ TEST(At128Decoder, CountsSecondsWhereThereIsNoDate) {
   StoreChecksums(ModelNamed("AT128"), packet);
   SpinningDecoder decoder(At128Model(CorrectionOf(MadeCorrection())));
   std::vector<SensorTurn> turns;
-  ASSERT_EQ(decoder.Decode(packet, turns), std::nullopt);
+  ASSERT_EQ(DecodePacket(decoder, packet, turns), std::nullopt);
   EXPECT_EQ(decoder.TakeUnfinished().stamp_ns,
             0x641D7520 * kNsPerS + 500'000'000 - 9'249 - 2 * 41'666);
 }
@@ -119,7 +120,7 @@ TEST(At128Decoder, EndsATurnWhereTheNextMirrorBegins) {
   SpinningDecoder decoder(At128Model(CorrectionOf(MadeCorrection())));
   std::vector<SensorTurn> turns;
   for (const double block_deg : {100.0, 139.95, 200.0, 300.0, 10.0, 30.0}) {
-    ASSERT_EQ(decoder.Decode(MadeAt128Packet(block_deg), turns), std::nullopt);
+    ASSERT_EQ(DecodePacket(decoder, MadeAt128Packet(block_deg), turns), std::nullopt);
   }
   turns.push_back(decoder.TakeUnfinished());
   std::vector<std::size_t> columns;
@@ -134,7 +135,7 @@ TEST(At128Decoder, TakesTwoBlocksForOneColumnInDualMode) {
   StoreChecksums(ModelNamed("AT128"), packet);
   SpinningDecoder decoder(At128Model(CorrectionOf(MadeCorrection())));
   std::vector<SensorTurn> turns;
-  ASSERT_EQ(decoder.Decode(packet, turns), std::nullopt);
+  ASSERT_EQ(DecodePacket(decoder, packet, turns), std::nullopt);
   const SensorTurn turn = decoder.TakeUnfinished();
   EXPECT_TRUE(turn.is_dual);
   ASSERT_EQ(turn.points.size(), 2U);
@@ -149,9 +150,9 @@ TEST(At128Decoder, RefusesWhatIsNoPacketOfIts) {
     std::vector<char> packet = MadeAt128Packet(65.0);
     packet[place] = byte;
     StoreChecksums(ModelNamed("AT128"), packet);
-    return decoder.Decode(packet, turns).value_or("");
+    return DecodePacket(decoder, packet, turns).value_or("");
   };
-  EXPECT_EQ(decoder.Decode({}, turns), "must be 1118 bytes (got 0)");
+  EXPECT_EQ(DecodePacket(decoder, {}, turns), "must be 1118 bytes (got 0)");
   EXPECT_EQ(said(7, 3), "must begin as an AT128's, protocol 4.3, 2 blocks of 128");
   EXPECT_EQ(said(9, 0), "distance unit must be > 0 (got 0)");
   EXPECT_EQ(said(1069, 1), "microseconds of the second must be < 1000000 (got 17277216)");
@@ -168,12 +169,12 @@ TEST(At128Decoder, RefusesPacketsOfWhichAByteIsWrong) {
   for (const std::size_t place : {20, 1041, 1042, 1046, 1079, 1082, 1085}) {
     std::vector<char> packet = right;
     packet[place] ^= 1;
-    EXPECT_EQ(decoder.Decode(packet, turns), std::string(kWrongChecksum)) << place;
+    EXPECT_EQ(DecodePacket(decoder, packet, turns), std::string(kWrongChecksum)) << place;
   }
   for (const std::size_t place : {4, 10, 1086, 1117}) {
     std::vector<char> packet = right;
     packet[place] ^= 1;
-    EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt) << place;
+    EXPECT_EQ(DecodePacket(decoder, packet, turns), std::nullopt) << place;
   }
 }
 

@@ -8,6 +8,7 @@
 #include "core/base/units.h"
 #include "core/io/field_layout.h"
 #include "tests/core/extras/packets/hesai/made_packet.h"
+#include "tests/support/decode_packet.h"
 #include "tests/support/sensor_file.h"
 
 namespace railcast {
@@ -20,7 +21,7 @@ std::size_t AzimuthPlace(std::size_t block) {
 SensorTurn Decoded(const std::vector<char>& packet, const SpinningModel& model = Pandar64Model()) {
   SpinningDecoder decoder(model);
   std::vector<SensorTurn> turns;
-  EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
+  EXPECT_EQ(DecodePacket(decoder, packet, turns), std::nullopt);
   EXPECT_TRUE(turns.empty());
   return decoder.TakeUnfinished();
 }
@@ -81,7 +82,7 @@ TEST(Pandar64Decoder, TakesTwoBlocksForOneCycleInDualMode) {
 TEST(Pandar64Decoder, EndsATurnWhereTheAzimuthFalls) {
   SpinningDecoder decoder(Pandar64Model());
   std::vector<SensorTurn> turns;
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(decoder.Decode(MadePacket(), turns), std::nullopt);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(DecodePacket(decoder, MadePacket(), turns), std::nullopt);
   EXPECT_EQ(turns.size(), 2U);
   EXPECT_EQ(turns.at(1).num_columns(), 6U);
 }
@@ -94,7 +95,7 @@ TEST(Pandar64Decoder, CutsTheTurnOfARotorThatStandsStill) {
   SpinningDecoder decoder(Pandar64Model());
   std::vector<SensorTurn> turns;
   for (int i = 0; turns.empty() && i < 10'000; ++i) {
-    ASSERT_EQ(decoder.Decode(packet, turns), std::nullopt);
+    ASSERT_EQ(DecodePacket(decoder, packet, turns), std::nullopt);
   }
   ASSERT_EQ(turns.size(), 1U);
   EXPECT_EQ(turns[0].num_columns(), std::size_t{1} << 14U);
@@ -106,14 +107,14 @@ std::string RefusalOfPacketWith(std::size_t place, Number number) {
   StoreAt<Number>(packet.data() + place, number);
   SpinningDecoder decoder(Pandar64Model());
   std::vector<SensorTurn> turns;
-  return decoder.Decode(packet, turns).value_or("");
+  return DecodePacket(decoder, packet, turns).value_or("");
 }
 
 TEST(Pandar64Decoder, RefusesWhatIsNoPacketOfIts) {
   using Byte = std::uint8_t;
   SpinningDecoder decoder(Pandar64Model());
   std::vector<SensorTurn> turns;
-  EXPECT_EQ(decoder.Decode({}, turns), "must be 1198 bytes (got 0)");
+  EXPECT_EQ(DecodePacket(decoder, {}, turns), "must be 1198 bytes (got 0)");
   EXPECT_EQ(RefusalOfPacketWith<std::uint16_t>(0, 0xEEFF), "flag must be 65518 (got 61183)");
   EXPECT_EQ(RefusalOfPacketWith<Byte>(2, 40), "lasers must be 64 (got 40)");
   EXPECT_EQ(RefusalOfPacketWith<Byte>(3, 8), "blocks must be 6 (got 8)");
@@ -146,7 +147,7 @@ std::vector<char> PacketOf(const SpinningModel& model, std::size_t laser, std::u
 TEST(Xt32Decoder, AddsTheRotorsTurnUntilTheLaserFires) {
   SpinningDecoder decoder(Xt32Model());
   std::vector<SensorTurn> turns;
-  ASSERT_EQ(decoder.Decode(PacketOf(Xt32Model(), 31, kMadeStrongest), turns), std::nullopt);
+  ASSERT_EQ(DecodePacket(decoder, PacketOf(Xt32Model(), 31, kMadeStrongest), turns), std::nullopt);
   const SensorTurn turn = decoder.TakeUnfinished();
   ASSERT_EQ(turn.points.size(), 8U);
   const TurnPoint& point = turn.points[2];
@@ -164,7 +165,7 @@ TEST(Xt32Decoder, CountsTimeFromTheCommandToFireTheLastBlock) {
        {std::pair{kMadeStrongest, std::int64_t{8}}, std::pair{kMadeDual, std::int64_t{4}}}) {
     SpinningDecoder decoder(Xt32Model());
     std::vector<SensorTurn> turns;
-    ASSERT_EQ(decoder.Decode(PacketOf(Xt32Model(), 31, mode), turns), std::nullopt);
+    ASSERT_EQ(DecodePacket(decoder, PacketOf(Xt32Model(), 31, mode), turns), std::nullopt);
     const SensorTurn turn = decoder.TakeUnfinished();
     ASSERT_EQ(turn.num_columns(), static_cast<std::size_t>(cycles));
     const std::int64_t packet_ns = (kSimulationEpoch_s + 86'403) * 1'000'000'000 + 500'000'000;
@@ -178,7 +179,7 @@ TEST(Xt32Decoder, RefusesAnotherProtocol) {
   packet[3] = 2;
   SpinningDecoder decoder(Xt32Model());
   std::vector<SensorTurn> turns;
-  EXPECT_EQ(decoder.Decode(packet, turns), "protocol must be 6.1 (got 6.2)");
+  EXPECT_EQ(DecodePacket(decoder, packet, turns), "protocol must be 6.1 (got 6.2)");
 }
 
 /// A dual packet of a loop, 1 or 2: laser 64 fires in both.
@@ -198,7 +199,7 @@ SensorTurn TurnOf(const std::vector<std::vector<char>>& packets) {
   std::vector<SensorTurn> turns;
   for (std::vector<char> packet : packets) {
     StoreChecksums(Qt128Model(), packet);
-    EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
+    EXPECT_EQ(DecodePacket(decoder, packet, turns), std::nullopt);
   }
   EXPECT_TRUE(turns.empty());
   return decoder.TakeUnfinished();
@@ -208,12 +209,13 @@ TEST(Qt128Decoder, RefusesAPacketWithAWrongChecksum) {
   const std::vector<char> packet = MadePacket(Qt128Model());
   SpinningDecoder decoder(Qt128Model());
   std::vector<SensorTurn> turns;
-  EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
+  EXPECT_EQ(DecodePacket(decoder, packet, turns), std::nullopt);
   // A byte that no checksum covers, and one that each of the three does, or is one.
   for (const std::size_t place : {1044U, 12U, 1039U, 1040U, 1045U, 1060U, 1061U, 1090U, 1094U}) {
     std::vector<char> damaged = packet;
     damaged[place] ^= 1;
-    EXPECT_EQ(decoder.Decode(damaged, turns).value_or(""), place == 1044 ? "" : kWrongChecksum)
+    EXPECT_EQ(DecodePacket(decoder, damaged, turns).value_or(""),
+              place == 1044 ? "" : kWrongChecksum)
         << place;
   }
 }

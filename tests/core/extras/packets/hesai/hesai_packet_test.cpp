@@ -16,6 +16,7 @@
 #include "core/scan/spinning_pattern.h"
 #include "tests/core/extras/packets/hesai/made_packet.h"
 #include "tests/support/captures.h"
+#include "tests/support/decode_packet.h"
 #include "tests/support/hesai_bag.h"
 
 namespace railcast {
@@ -36,7 +37,7 @@ class Remade {
     SpinningDecoder decoder(model);
     std::vector<SensorTurn> turns;
     for (const std::vector<char>& packet : packets) {
-      EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
+      EXPECT_EQ(DecodePacket(decoder, packet, turns), std::nullopt);
     }
     is_one_turn_ = turns.empty();
     turn_ = decoder.TakeUnfinished();

@@ -7,6 +7,7 @@
 
 #include "core/base/units.h"
 #include "tests/core/extras/packets/ouster/shared_captures.h"
+#include "tests/support/decode_packet.h"
 #include "tests/support/decoded_turns.h"
 #include "tests/support/ouster_metadata_text.h"
 
@@ -181,7 +182,7 @@ TEST(OusterDecoder, SaysWhyAPacketIsRefused) {
     change(packet);
     OusterDecoder decoder(made.metadata());
     std::vector<SensorTurn> turns;
-    return decoder.Decode(packet, turns).value_or("accepted");
+    return DecodePacket(decoder, packet, turns).value_or("accepted");
   };
   EXPECT_EQ(refusal([](auto&) {}), "accepted");
   EXPECT_EQ(refusal([](auto& packet) { packet.pop_back(); }), "must be 1024 bytes (got 1023)");

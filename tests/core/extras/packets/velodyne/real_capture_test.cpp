@@ -14,6 +14,7 @@
 #include "core/extras/packets/spinning/spinning_decoder.h"
 #include "core/scenario/sensors.h"
 #include "railcast/transform.h"
+#include "tests/support/decode_packet.h"
 #include "tests/support/pcl_reads.h"
 
 namespace railcast {
@@ -31,7 +32,7 @@ std::vector<SensorTurn> DecodeCapture(const std::filesystem::path& file,
   std::vector<SensorTurn> turns;
   while (const auto datagram = reader.Next()) {
     EXPECT_EQ(datagram->destination_port, kVelodyneDataPort);
-    EXPECT_EQ(decoder.Decode(datagram->payload, turns), std::nullopt);
+    EXPECT_EQ(DecodePacket(decoder, datagram->payload, turns), std::nullopt);
   }
   turns.push_back(decoder.TakeUnfinished());
   return turns;

@@ -15,6 +15,7 @@
 #include "core/io/field_layout.h"
 #include "railcast/transform.h"
 #include "tests/core/extras/packets/velodyne/made_scan.h"
+#include "tests/support/decode_packet.h"
 #include "tests/support/sensor_file.h"
 
 namespace railcast {
@@ -29,7 +30,7 @@ SpinningDecoder DecoderOf(std::string_view format, const MadeScan& scan) {
 std::vector<SensorTurn> DecodeAll(SpinningDecoder& decoder, const Datagrams& datagrams) {
   std::vector<SensorTurn> turns;
   for (const auto& packet : DataPackets(datagrams)) {
-    EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
+    EXPECT_EQ(DecodePacket(decoder, packet, turns), std::nullopt);
   }
   return turns;
 }
@@ -167,7 +168,7 @@ std::string Refusal(std::string_view format, std::span<const char> packet) {
   const MadeScan scan(ReadSensor(std::string(SensorOf(format))));
   SpinningDecoder decoder = DecoderOf(format, scan);
   std::vector<SensorTurn> turns;
-  std::string refusal = decoder.Decode(packet, turns).value_or("");
+  std::string refusal = DecodePacket(decoder, packet, turns).value_or("");
   if (!refusal.empty()) {
     EXPECT_TRUE(turns.empty());
     EXPECT_TRUE(decoder.TakeUnfinished().points.empty());
@@ -224,7 +225,7 @@ TEST(VelodyneDecoder, TakesTheLasersOfAVls128FromFourBlocks) {
   set_distance(3, 31);
   SpinningDecoder decoder(ModelNamed("VLS-128"));
   std::vector<SensorTurn> turns;
-  ASSERT_EQ(decoder.Decode(packet, turns), std::nullopt);
+  ASSERT_EQ(DecodePacket(decoder, packet, turns), std::nullopt);
   const SensorTurn turn = decoder.TakeUnfinished();
   ASSERT_EQ(turn.num_columns(), 3U);
   ASSERT_EQ(turn.points.size(), 2U);
@@ -236,9 +237,9 @@ TEST(VelodyneDecoder, TakesTheLasersOfAVls128FromFourBlocks) {
   EXPECT_NEAR(DegFromRad(static_cast<double>(turn.points[1].azimuth_rad)),
               360.0 - 6.354 + turned_deg, 1e-4);
   StoreAt<std::uint16_t>(packet.data() + 2 * kBlockSize, 0xEEFF);
-  EXPECT_EQ(decoder.Decode(packet, turns), "block 2: flag must be 52479 (got 61183)");
+  EXPECT_EQ(DecodePacket(decoder, packet, turns), "block 2: flag must be 52479 (got 61183)");
   StoreAt<std::uint8_t>(packet.data() + kModePlace, kLastAndStrongestMode);
-  EXPECT_EQ(decoder.Decode(packet, turns), "return mode must be 55 or 56 (got 57)");
+  EXPECT_EQ(DecodePacket(decoder, packet, turns), "return mode must be 55 or 56 (got 57)");
 }
 
 TEST(VelodyneDecoder, KnowsTheLasersOfAVls128AsItsSensorFileDoes) {
@@ -261,7 +262,7 @@ TEST(VelodyneDecoder, CountsOnOverTheHour) {
   // Every packet begins at azimuth 0, so each is a turn.
   for (const std::uint32_t time_us : {3'599'900'000U, 0U, 100'000U, 50'000U, 2'000'000'000U}) {
     StoreAt<std::uint32_t>(packet.data() + 1200, time_us);
-    EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
+    EXPECT_EQ(DecodePacket(decoder, packet, turns), std::nullopt);
   }
   turns.push_back(decoder.TakeUnfinished());
   std::vector<std::int64_t> stamps_us;
@@ -280,7 +281,7 @@ TEST(VelodyneDecoder, SurvivesAClockThatLeaps) {
     // Each packet comes 29.9 minutes after the one before: 12,458 hours in all.
     StoreAt<std::uint32_t>(packet.data() + 1200,
                            static_cast<std::uint32_t>(i * 1'794'000'000ULL % 3'600'000'000ULL));
-    ASSERT_EQ(decoder.Decode(packet, turns), std::nullopt);
+    ASSERT_EQ(DecodePacket(decoder, packet, turns), std::nullopt);
     if (turns.empty()) continue;
     last_ns = std::max(last_ns, turns.back().stamp_ns);
     turns.clear();
@@ -297,7 +298,7 @@ TEST(VelodyneDecoder, CutsTheTurnOfARotorThatStandsStill) {
   SpinningDecoder decoder(*FindSpinningModel("vlp16"));
   std::vector<SensorTurn> turns;
   for (int i = 0; turns.empty() && i < 10'000; ++i) {
-    ASSERT_EQ(decoder.Decode(packet, turns), std::nullopt);
+    ASSERT_EQ(DecodePacket(decoder, packet, turns), std::nullopt);
   }
   ASSERT_EQ(turns.size(), 1U);
   EXPECT_LT(turns[0].points.size(), (std::size_t{1} << 20U) + 32);
