@@ -200,9 +200,6 @@ class BagCopy {
                                                    const std::filesystem::path& copy,
                                                    const BagTopic& topic);
 
-/// Whether the file begins as an SQLite database.
-[[nodiscard]] bool IsSqlite(const std::filesystem::path& file);
-
 /// Opens a database of rosbag2, of any version of its tables. If its recorder was interrupted, so
 /// that a journal or a write-ahead log stands beside it, both are copied to the temporary folder
 /// and read there.

@@ -1,10 +1,10 @@
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <fstream>
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -159,12 +159,19 @@ std::unique_ptr<BagReader> Merged(std::vector<std::unique_ptr<BagReader>> parts,
   return std::make_unique<MergedReader>(std::move(parts), std::move(remarks));
 }
 
+bool BeginsWith(const std::filesystem::path& file, std::string_view magic) {
+  std::string begin(magic.size(), '\0');
+  std::ifstream(file, std::ios::binary).read(begin.data(), std::ssize(begin));
+  return begin == magic;
+}
+
 /// Whether rosbag2 compressed the file as a whole.
 bool IsZstd(const std::filesystem::path& file) {
-  constexpr std::array<char, 4> kBegin = {'\x28', '\xB5', '\x2F', '\xFD'};
-  std::array<char, kBegin.size()> begin{};
-  std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
-  return begin == kBegin;
+  return BeginsWith(file, "\x28\xB5\x2F\xFD");
+}
+
+bool IsSqlite(const std::filesystem::path& file) {
+  return BeginsWith(file, {"SQLite format 3\0", 16});
 }
 
 bool IsMcap(const std::filesystem::path& file) {

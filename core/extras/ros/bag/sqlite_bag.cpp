@@ -268,13 +268,6 @@ std::vector<std::filesystem::path> ChangesBeside(const std::filesystem::path& fi
   return changes;
 }
 
-bool IsSqlite(const std::filesystem::path& file) {
-  constexpr std::string_view kBegin("SQLite format 3\0", 16);
-  std::array<char, kBegin.size()> begin{};
-  std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
-  return std::string_view(begin.data(), begin.size()) == kBegin;
-}
-
 std::unique_ptr<BagReader> OpenSqliteBag(const std::filesystem::path& file,
                                          const std::string& name) {
   CheckIsReadable(file);

@@ -124,18 +124,6 @@ void SqliteStatement::Bind(int number, std::int64_t value) {
   sqlite3_bind_int64(statement_.get(), number, value);
 }
 
-void SqliteStatement::Bind(int number, double value) {
-  sqlite3_bind_double(statement_.get(), number, value);
-}
-
-void SqliteStatement::Bind(int number, const std::optional<double>& value) {
-  if (value) {
-    Bind(number, *value);
-  } else {
-    sqlite3_bind_null(statement_.get(), number);
-  }
-}
-
 void SqliteStatement::Bind(int number, std::string_view value) {
   sqlite3_bind_text64(statement_.get(), number, value.data(), value.size(), SQLITE_TRANSIENT,
                       SQLITE_UTF8);

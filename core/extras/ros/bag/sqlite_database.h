@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -84,9 +83,6 @@ class SqliteStatement {
 
   void Reset();
   void Bind(int number, std::int64_t value);
-  void Bind(int number, double value);
-  /// Null if there is none.
-  void Bind(int number, const std::optional<double>& value);
   void Bind(int number, std::string_view value);
   void Bind(int number, std::span<const std::byte> value);
 

@@ -242,16 +242,6 @@ class CloudTopicRecording : public Recording {
 
 }  // namespace
 
-std::unique_ptr<DatagramSource> OpenBagPackets(const std::filesystem::path& bag) {
-  const std::vector<bag::BagTopic> topics = bag::OpenBag(bag)->topics();
-  const std::size_t picked = PickTopic(topics, bag, "");
-  if (FindPacketsOf(topics[picked].type) != nullptr) {
-    return std::make_unique<PacketSource>(bag, picked, ShownPath(bag));
-  }
-  throw InputError(ShownPath(bag) + ": must hold packets of a sensor (got " +
-                   ShownText(topics[picked].type) + ")");
-}
-
 FirstPointTime FirstPointTimeOf(std::int64_t stamp_ns, double first_ns, std::uint32_t duration_ns) {
   const double since_stamp_ns = first_ns - static_cast<double>(stamp_ns);
   const bool is_absolute = std::abs(since_stamp_ns) < std::abs(first_ns);

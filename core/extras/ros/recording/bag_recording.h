@@ -44,10 +44,6 @@ struct BagSource {
                                                           const std::filesystem::path& bag,
                                                           const std::string& topic);
 
-/// Opens the packets of a sensor in the only topic of a bag that can be opened.
-/// @throws InputError as OpenBagRecording(), or if that topic holds clouds.
-[[nodiscard]] std::unique_ptr<DatagramSource> OpenBagPackets(const std::filesystem::path& bag);
-
 /// Finds the packets of a sensor in a topic of a bag. Returns nothing if the topic holds clouds.
 /// @throws InputError as OpenBagRecording().
 [[nodiscard]] std::optional<DatagramPlace> FindBagPackets(const std::filesystem::path& bag,
