@@ -209,6 +209,25 @@ TEST(AddCatenary, HoldsTheWiresWithItsCantilevers) {
   EXPECT_NEAR(left.max().z(), 7.3, 0.03);
 }
 
+TEST(AddCatenary, CarriesTheMessengerByAStrutFromBelow) {
+  const TestLine line(StraightLine(1000.0));
+  const Placement cantilever = PlacedAt(line, 0, "cantilever").at(0);
+  Eigen::AlignedBox3d insulators;
+  for (const Part& part : cantilever.model->parts) {
+    if (part.label != line.surfaces().insulator.label ||
+        part.material != line.surfaces().insulator.material) {
+      continue;
+    }
+    for (const auto& vertex : part.mesh.vertices) insulators.extend(vertex.cast<double>());
+  }
+  // The tube at the head is level; the strut rises from its hinge, 0.5 m above the contact wire,
+  // by 1.225 m in 3.7 m. Its insulator's second ring, of 0.055 m radius and ten corners, is 0.15 m
+  // from the hinge.
+  const double along = std::hypot(3.7, 1.225);
+  const double lowest_m = 6.0 + 0.15 * 1.225 / along - 0.055 * 3.7 / along;
+  EXPECT_NEAR(insulators.min().z(), lowest_m, 0.055 * (1.0 - std::cos(M_PI / 10.0)));
+}
+
 /// Distances of the masts' faces from their nearest track axes.
 struct FaceDistances {
   double least_m = 100.0;

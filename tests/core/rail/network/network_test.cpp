@@ -196,6 +196,18 @@ TEST(Network, ReportsGeometryThatDoesNotFit) {
                   "turnouts to fit between them (got 3.5)"));
 }
 
+// A track at 42 degrees, and one that leaves it by the turnout's angle of atan(1/9) more.
+TEST(Network, ReportsABranchThatLeavesTooSteeply) {
+  EXPECT_THAT(
+      NetworkFaults(StraightWith({{.name = "steep",
+                                   .offset_m = 10.0,
+                                   .elements = {{ElementType::kStraight, 200.0, std::nullopt}},
+                                   .heading_deg = 42.0,
+                                   .start_s_m = 100.0},
+                                  {.name = "a", .offset_m = 300.0, .begin = On("steep", 120.0)}})),
+      ElementsAre("/world/tracks/2: must run within 45 degrees of the alignment (got 48.34)"));
+}
+
 TEST(Network, BendsATurnoutWithATrackThatChangesItsCurvature) {
   WorldSpec world = StraightWith({});
   world.tracks.push_back({.name = "wide", .offsets_m = {{300.0, 10.0}, {400.0, 12.5}}});

@@ -175,6 +175,18 @@ TEST(Route, SetsTheTurnoutsThatHaveNoPosition) {
   EXPECT_EQ(draft.network.turnouts[1].position, TurnoutPosition::kStraight);
 }
 
+TEST(Route, LeavesATurnoutBehindTheVehicleAsItIsGiven) {
+  WorldSpec world = LineWithALoop();
+  world.tracks[1].begin->position = TurnoutPosition::kStraight;
+  VehicleSpec vehicle;
+  vehicle.route = {"main", "loop"};
+  vehicle.start_s_m = 350.0;
+  WorldFaults faults;
+  const WorldDraft draft = DraftWorld({world, vehicle, RailLabels(), RailMaterials()}, faults);
+  ASSERT_EQ(draft.network.turnouts.size(), 2U);
+  EXPECT_EQ(draft.network.turnouts[0].position, TurnoutPosition::kStraight);
+}
+
 TEST(Route, WantsTheVehicleOnIt) {
   const WorldSpec world = LineWithALoop();
   VehicleSpec vehicle;
