@@ -205,6 +205,18 @@ TEST(ChooseFidelity, SaysWhichSceneDetailHolds) {
   EXPECT_THAT(ChoiceJson(in_full), HasSubstr("\"detail\": \"full\""));
 }
 
+TEST(ChoiceText, TellsWhatIsNeededFromWhatChangesNothing) {
+  FidelityChoice choice;
+  choice.measured = {{.what = "thin_conductors", .is_kept = true, .without = {.missed_share = 0.5}},
+                     {.what = "range_noise", .is_kept = false, .without = {.range_m = 0.001}},
+                     {.what = "footprint", .is_kept = false, .without = choice.full_deviation}};
+  const std::string text = ChoiceText(choice);
+  EXPECT_THAT(text,
+              HasSubstr("\n  needs thin_conductors: without it range 0.0 mm, missed 50.00 %, "));
+  EXPECT_THAT(text, HasSubstr("\n  without range_noise: range 1.0 mm, missed 0.00 %, "));
+  EXPECT_THAT(text, HasSubstr("\n  without footprint: changes nothing here\n"));
+}
+
 TEST(ChooseFidelity, HoldsNoFrameBackBeyondTheEndOfTheTrack) {
   const FidelityChoice choice = Choose(ReadLine({.mount = kSideways, .start_s_m = "460"}));
   EXPECT_THAT(choice.sample_frames, ElementsAre(0));
