@@ -242,6 +242,15 @@ TEST(KittiReader, TakesFiringsWithoutAReturnAndNationalGridsAsTheyAre) {
   EXPECT_EQ(BinFault(grid), "no error");
 }
 
+TEST(KittiReader, TakesNoNumbersOfRowsForCoordinates) {
+  std::string bytes = BinRoom<float>(4);
+  for (std::size_t point = 0; 16 * point < bytes.size(); ++point) {
+    const auto ring = static_cast<float>(point % 16);
+    std::memcpy(&bytes[16 * point], &ring, sizeof ring);
+  }
+  EXPECT_TRUE(BinFault(bytes).starts_with(kNotFour)) << BinFault(bytes);
+}
+
 TEST(KittiReader, NamesTheColumnsOfAnUnevenLength) {
   std::string bytes = BinRoom<float>(5);
   bytes.resize(bytes.size() - 20);
