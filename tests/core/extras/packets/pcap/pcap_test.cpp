@@ -320,6 +320,14 @@ TEST(FindDatagram, SkipsExtensionHeadersOfIpv6) {
   EXPECT_EQ(PayloadOf(MadeIpv6Frame(routing + fragment, 43)), "abc");
 }
 
+// RFC 8200, 3 and 6: its 20 bits, which Linux fills, say nothing of fragments.
+TEST(FindDatagram, TakesNoFlowLabelOfIpv6ForAFragment) {
+  std::vector<char> frame = MadeIpv6Frame();
+  frame[16] = '\x5A';
+  frame[17] = '\x25';
+  EXPECT_EQ(PayloadOf(frame), "abc");
+}
+
 TEST(FindDatagram, FindsNothingInIpv6ThatIsNoWholeDatagram) {
   const std::string options("\x11\0\1\4\0\0\0\0", 8);
   const std::vector<char> sound = MadeIpv6Frame(options, 60);
