@@ -128,6 +128,15 @@ TEST(PlanStretch, ReachesFromBeforeTheFirstTurnoutToBehindTheLastTrack) {
   EXPECT_EQ(stretch.to_s_m, last_s_m + kPlanMargin_m);
 }
 
+TEST(PlanStretch, ReachesFromWhereATrackWithoutTurnoutsBegins) {
+  ScenarioSpec scenario = ScenarioOnLine(Straight(700.0), 100.0);
+  scenario.world.tracks.push_back(
+      {.name = "apart", .offset_m = 10.0, .start_s_m = 200.0, .end_s_m = 400.0});
+  const PlanStretch stretch = NetworkStretch(*MakeWorld(scenario));
+  EXPECT_EQ(stretch.from_s_m, 200.0 - kPlanMargin_m);
+  EXPECT_EQ(stretch.to_s_m, 400.0 + kPlanMargin_m);
+}
+
 TEST(PlanStretch, IsTheWholeLineWithoutBranches) {
   const auto world = MakeWorld(ScenarioOnLine(Straight(700.0), 100.0));
   EXPECT_EQ(NetworkStretch(*world).from_s_m, 0.0);
