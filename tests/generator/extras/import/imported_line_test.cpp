@@ -145,6 +145,7 @@ TEST(ImportedLine, HasTheMapsCurveAndSpeeds) {
   const RailMap map = Corner();
   const TrackLine track = FindLines(map, 0.0).front();
   const ImportedLine line = ImportLine(map, track, {});
+  EXPECT_EQ(line.quality.num_points, map.nodes.size());
   EXPECT_NEAR(line.quality.tightest_radius_m, 500.0, 25.0);
   EXPECT_LT(line.quality.median_m, 0.3);
   EXPECT_LT(line.quality.num_elements, 10U);

@@ -86,6 +86,16 @@ TEST(MapAccount, HasTheReasonOfTheWorldThatCameNearest) {
   }
 }
 
+TEST(MapAccount, HasTheReasonOfTheWorldForAPlatformBesideItsTrack) {
+  MadeMap map{{0.0, {}}};
+  map.AddPlatformArea(500.0, 600.0, -2.3, -2.0);
+  map.Make();
+  const AccountRow row = map.Sum("platform");
+  EXPECT_EQ(row.in_worlds, 0.0);
+  EXPECT_THAT(row.left_out, ElementsAre(Pair("there is no room for it beside track main",
+                                             ::testing::DoubleNear(100.0, 1e-6))));
+}
+
 TEST(MapAccount, TurnsNoSignalRoundWhereTwoWaysMeetInTwoPoints) {
   MadeMap map{};
   map.AddWay({{0.0, 0.0}, {799.7, 0.0}, {800.0, 0.0}}, {});

@@ -130,6 +130,17 @@ TEST_F(Maps, AreReadFromGeoJson) {
   EXPECT_EQ(TagOf(map.ways[0].tags, "maxspeed"), "60");
 }
 
+TEST_F(Maps, OfGeoJsonHaveNoTrackOfAPoint) {
+  const RailMap map = ReadMap(Write("map.geojson", R"({"type": "FeatureCollection", "features": [
+    {"type": "Feature", "properties": {"railway": "rail"},
+     "geometry": {"type": "LineString", "coordinates": [[15.6, 48.2], [15.61, 48.2]]}},
+    {"type": "Feature", "properties": {"railway": "rail"},
+     "geometry": {"type": "Point", "coordinates": [15.6, 48.2]}}]})"));
+  EXPECT_THAT(map.ways, SizeIs(1));
+  EXPECT_EQ(map.remarks,
+            (std::vector<Remark>{{RemarkKind::kLinesLeftOut, "/features/1", 1, "it has no line"}}));
+}
+
 TEST_F(Maps, AreReadFromGeoJsonThatSpeaksOfElements) {
   const RailMap map = ReadMap(Write("map.geojson", R"({"type": "FeatureCollection", "features": [
     {"type": "Feature", "properties": {"elements": "3"},
