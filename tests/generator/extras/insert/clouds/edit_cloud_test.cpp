@@ -136,6 +136,19 @@ TEST(EditedPly, LeavesOutLostReturnsAndAddsOthersInOrder) {
   EXPECT_EQ(files[0].bytes.size(), before.size());
 }
 
+TEST(EditedPly, AddsReturnsWhereTheOrderOfItsRowsHasThem) {
+  std::vector<FrameFile> files = FilesIn("ply", "x,y,z,intensity");
+  // Column by column instead of row by row.
+  files[0].bytes =
+      "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+      "property float z\nend_header\n10 1 1\n13 1 1\n11 1 1\n14 1 1\n12 1 1\n";
+  EditedFrame frame(files);
+  frame.firings.entry_of_slot = {0, 2, 4, 1, 3, kNoEntry};
+  const auto slots = EditCloud(frame.firings, frame.inserted, {}, files);
+  EXPECT_THAT(slots, ElementsAre(0, 3, 4, 2, 5));
+  EXPECT_THAT(ColumnOf(files, "x"), ElementsAre(10.0F, 13.0F, 14.0F, 12.0F, 7.0F));
+}
+
 TEST(EditedPly, SaturatesMeasuredValuesAndRefusesNumbersThatDoNotFit) {
   const auto edit = [](std::uint32_t instance) {
     std::vector<FrameFile> files = FilesIn("ply", "x,y,z,intensity,instance");

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,11 +7,14 @@
 #include <filesystem>
 #include <string>
 
+#include "core/extras/insert/insertion_verification.h"
 #include "core/extras/packets/pcap/pcap_reader.h"
 #include "core/extras/packets/pcap/pcap_writer.h"
 #include "core/extras/packets/recording/packet_recording.h"
 #include "core/extras/packets/spinning/spinning_encoder.h"
+#include "core/io/write_file.h"
 #include "generator/extras/insert/packets/insertion.h"
+#include "generator/extras/insert/run/insert_run.h"
 #include "tests/core/extras/packets/velodyne/made_scan.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
@@ -45,16 +49,16 @@ class InsertedCapture : public testing::TestWithParam<const char*> {
   [[nodiscard]] fs::path capture() const { return folder_.path() / "drive.pcap"; }
 
   /// Puts a box around 6 m ahead of the sensor.
-  [[nodiscard]] InsertIntoFrame BoxAhead() const {
+  [[nodiscard]] InsertIntoFrame BoxAhead() const { return MakeInsertion(Plan(), capture()); }
+  [[nodiscard]] fs::path Plan() const {
     const std::string lidar = "\"lidar\": {\"file\": \"" RAILCAST_SOURCE_DIR "/scenarios/sensors/" +
                               std::string(SensorOf(GetParam())) +
                               ".json\", \"receiver\": {\"return_mode\": \"" +
                               std::string(NameOf(ReturnModeOfFormat(GetParam()))) + "\"}}, ";
-    const fs::path plan = WritePlan(
+    return WritePlan(
         folder_.path(), R"({"poses": "standing"})",
         R"(, "objects": [{"type": "box", "name": "crate", "size_m": [1, 2, 6], "s_m": 6, "d_m": 0, "h_m": 0}])",
         lidar);
-    return MakeInsertion(plan, capture());
   }
 
   TemporaryDirectory folder_;
@@ -84,6 +88,20 @@ TEST_P(InsertedCapture, IsReadAgainAsItWasInserted) {
 // What is sent live is what is written to the file.
 TEST_P(InsertedCapture, IsSentAsItIsWritten) {
   ExpectSentAsWritten(capture(), folder_.path() / "out", BoxAhead());
+}
+
+TEST_P(InsertedCapture, IsCheckedAgainstItsHash) {
+  const InsertChoices choices = {
+      .recording = capture(), .plan = Plan(), .directory = folder_.path() / "out"};
+  const InsertPlan plan = ReadInsertPlan(choices.plan, capture());
+  (void)RunInsert(choices, plan, {[](std::uint32_t, std::uint32_t) {}, [] { return false; }});
+  EXPECT_THAT(VerifyInsertion(choices.directory, [](double) {}).faults, testing::IsEmpty());
+  const fs::path copy = choices.directory / "recording/drive.pcap";
+  std::string bytes = ReadFileWhole(copy);
+  bytes.back() = static_cast<char>(bytes.back() ^ 1);
+  WriteFileWhole(copy, bytes);
+  EXPECT_THAT(VerifyInsertion(choices.directory, [](double) {}).faults,
+              testing::ElementsAre(testing::StartsWith(copy.string() + ": must have the hash ")));
 }
 
 INSTANTIATE_TEST_SUITE_P(Velodyne,
