@@ -57,6 +57,21 @@ TEST_F(ConvertDatasetOfInsertions, MakesSequencesWithTheSameIndexAndSplits) {
   }
 }
 
+TEST_F(ConvertDatasetOfInsertions, TellsWhatItMadeAnew) {
+  nlohmann::json json = Boxes();
+  json["num_scenarios"] = 1;
+  (void)Make(Read(json), "set");
+  fs::remove_all(Path("converted"));
+  const ConvertChoices choices = {
+      .recording = Path("set"), .directory = Path("converted"), .format = "ply"};
+  EXPECT_THAT(ConvertAll(choices).changed, testing::IsEmpty());
+  WriteFileWhole(Path("converted/split/val.txt"), "another\n");
+  const ConvertResult mended = ConvertAll(choices);
+  EXPECT_FALSE(mended.was_complete);
+  EXPECT_TRUE(mended.is_complete);
+  EXPECT_THAT(mended.changed, testing::ElementsAre(testing::HasSubstr("split/val.txt: ")));
+}
+
 TEST_F(ConvertDatasetOfInsertions, RefusesThoseIntoRecordingsThatAreNoSequences) {
   fs::remove_all(Path("clouds"));
   fs::copy(Path("one/frames"), Path("clouds"));
