@@ -17,6 +17,7 @@
 #include "generator/extras/survey/survey_beams.h"
 #include "railcast/scenario.h"
 #include "tests/core/io/cloud/made_las.h"
+#include "tests/core/io/recording/made_sequence.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/project_folder.h"
 #include "tests/generator/run_command.h"
@@ -208,6 +209,16 @@ TEST(SurveyCommand, MakesScenesThatSequencesKeep) {
   for (const std::string name : {"frames/000000.pcd", "scenario.resolved.json", "manifest.json"}) {
     EXPECT_EQ(ReadFileWhole(again / name), ReadFileWhole(first / name)) << name;
   }
+}
+
+TEST(SurveyCommand, TakesTheRailsOfASequenceFromItsVehicle) {
+  const TemporaryDirectory directory;
+  (void)MakeSequence(directory.path() / "run", {.object = ""});
+  const Ended ended = Generate("survey " + (directory.path() / "run").string() + " --out " +
+                               (directory.path() / "out").string());
+  EXPECT_EQ(ended.status, 0) << ended.said;
+  EXPECT_THAT(ended.said, testing::HasSubstr("the line begins "));
+  EXPECT_THAT(ended.said, testing::Not(testing::HasSubstr("top of rail is taken")));
 }
 
 TEST(SurveyCommand, RecordsWhatTheSurveyIsMadeOf) {
