@@ -136,6 +136,14 @@ TEST_F(InsertCommand, LeavesNothingWhereThePlanDoesNotFitTheRecording) {
   EXPECT_FALSE(exists(out()));
 }
 
+TEST_F(InsertCommand, KeepsTheFramesThatItHasWhereALaterOneCannotBeRead) {
+  Make(16);
+  fs::resize_file(run() / "frames/000015.pcd", 1000);
+  EXPECT_THAT(Insert("--threads 1 --out " + out().string()),
+              ExitsWith(1, testing::HasSubstr("000015.pcd: ")));
+  EXPECT_TRUE(exists(out() / "recording/frames/000000.pcd"));
+}
+
 TEST_F(InsertCommand, StopsAfterAFrameOnCtrlCAndContinues) {
   Make(16);
   const pid_t child = ::fork();
