@@ -145,6 +145,7 @@ TEST(MakeSurvey, FitsAWireThroughNoisyPoints) {
   EXPECT_GE(survey.num_wires, 1U);
   double length_m = 0.0;
   for (const SurveyTile& tile : survey.tiles) {
+    EXPECT_LE(tile.wires.size(), survey.num_wires) << "a wire is one line in each tile";
     for (const SurveyedWire& wire : tile.wires) {
       EXPECT_EQ(survey.labels[wire.surface.label], "contact_wire");
       for (std::size_t i = 0; i < wire.points_m.size(); ++i) {
@@ -156,6 +157,31 @@ TEST(MakeSurvey, FitsAWireThroughNoisyPoints) {
     }
   }
   EXPECT_NEAR(length_m, 60.0, 3.0);
+}
+
+// Neighbours are farther apart than points of one surface may be.
+TEST(MakeSurvey, FitsAWireOfFewPoints) {
+  MadeFrames frames;
+  SurveyFrame& frame = frames.Add({0.0, 0.0, 0.0});
+  for (int i = 0; i <= 40; ++i) AddPoint({0.7 * i - 14.0, 0.2, 5.5}, frame);
+  const Survey survey = MakeSurvey(frames.All(), {}, {});
+  double length_m = 0.0;
+  for (const SurveyTile& tile : survey.tiles) {
+    for (const SurveyedWire& wire : tile.wires) {
+      for (std::size_t i = 0; i + 1 < wire.points_m.size(); ++i) {
+        length_m += double{(wire.points_m[i + 1] - wire.points_m[i]).norm()};
+      }
+    }
+  }
+  EXPECT_NEAR(length_m, 28.0, 1e-3);
+}
+
+TEST(SurveyLabels, NameEachLabelOnce) {
+  SurveyLabels labels;
+  EXPECT_EQ(labels.IndexOf("tree"), 3U);
+  EXPECT_EQ(labels.IndexOf("object"), SurveyLabels::kObject);
+  EXPECT_EQ(labels.IndexOf("tree"), 3U);
+  EXPECT_THAT(labels.names(), testing::ElementsAre("ground", "object", "contact_wire", "tree"));
 }
 
 constexpr double kRadius_m = 400.0;
