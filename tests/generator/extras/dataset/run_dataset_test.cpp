@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/extras/recipe/recipe_files.h"
+#include "core/io/content_hash.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/extras/dataset/dataset_project.h"
@@ -61,6 +62,25 @@ TEST_F(RunDatasetTest, TellsWhatAnEarlierRunDid) {
                               [] { return false; }};
   (void)RunDataset(recipe_, OnOneThread(Path("set")), hooks);
   EXPECT_DOUBLE_EQ(done.front(), num_done / 6.0);
+}
+
+TEST_F(RunDatasetTest, NamesItsDataByAHashOfIndexAndSplitsToo) {
+  (void)MakeOnce(recipe_, OnOneThread(Path("set")));
+  const Json manifest = Json::parse(ReadFileWhole(Path("set/manifest.json")));
+  // All files but dataset.json, which names the program, and scenarios.jsonl.
+  std::string hashes;
+  for (const char* name : {"recipe.json", "index.jsonl", "report.json", "split/train.txt",
+                           "split/val.txt", "split/test.txt"}) {
+    hashes += HashFile(Path("set") / name).hash;
+  }
+  std::istringstream lines(ReadFileWhole(Path("set/scenarios.jsonl")));
+  for (std::string line; std::getline(lines, line);) {
+    const Json scenario = Json::parse(line);
+    for (const Json& sequence : scenario.at("sequences")) {
+      hashes += sequence.at("data_xxh3").get<std::string>();
+    }
+  }
+  EXPECT_EQ(manifest.at("data_xxh3"), ContentHash(hashes));
 }
 
 TEST_F(RunDatasetTest, IndexAndReportAgree) {
