@@ -16,18 +16,9 @@ constexpr std::size_t kMostObjects = 64;
 constexpr std::uint32_t kNumSteps = 256;
 
 // Returns the first frame of [begin, end) for which `holds`, or `end`; it holds for all later ones.
-std::uint32_t FirstWith(std::uint32_t begin,
-                        std::uint32_t end,
-                        const std::function<bool(std::uint32_t)>& holds) {
-  while (begin < end) {
-    const std::uint32_t middle = begin + (end - begin) / 2;
-    if (holds(middle)) {
-      end = middle;
-    } else {
-      begin = middle + 1;
-    }
-  }
-  return begin;
+template <typename Predicate>
+std::uint32_t FirstWith(std::uint32_t begin, std::uint32_t end, const Predicate& holds) {
+  return FirstFrameBeyond(begin, end, std::not_fn(holds));
 }
 
 /// The distance from the sensor to one object as a function of the frame.

@@ -28,21 +28,6 @@ std::string DepthText(double gap_m) {
 // A vehicle that stops exactly at the end of its track is still on it, whatever the rounding.
 constexpr double kTolerance_m = 1e-3;
 
-// Returns the first frame for which `is_before` is false, or `end`; it is false for all later
-// frames, too.
-template <typename Predicate>
-std::uint32_t FirstBeyond(std::uint32_t begin, std::uint32_t end, const Predicate& is_before) {
-  while (begin < end) {
-    const std::uint32_t middle = begin + (end - begin) / 2;
-    if (is_before(middle)) {
-      begin = middle + 1;
-    } else {
-      end = middle;
-    }
-  }
-  return begin;
-}
-
 /// A moving object, the track that it may be on, and its position.
 struct Traveller {
   /// The beginning of an error line about it; rarely needed, so computed on demand.
@@ -172,7 +157,7 @@ void CheckStaysOnTracks(const ScenarioSpec& scenario,
     };
     // Directions never reverse: an object that has left its track stays off it.
     if (is_on_track(last_frame)) continue;
-    const std::uint32_t frame = FirstBeyond(first_frame, last_frame, is_on_track);
+    const std::uint32_t frame = FirstFrameBeyond(first_frame, last_frame, is_on_track);
     errors.AddLine(traveller.Leaves("frame " + std::to_string(frame) + " (" +
                                     SecondsText(pattern.StampNs(frame)) + ")"));
   }
@@ -188,7 +173,7 @@ std::uint32_t LastFrameOnTracks(const ScenarioSpec& scenario,
       return traveller.IsOnTrack(pattern.StampNs(frame) + pattern.time_ns.back());
     };
     if (is_on_track(last_frame)) continue;
-    const std::uint32_t beyond = FirstBeyond(0, last_frame, is_on_track);
+    const std::uint32_t beyond = FirstFrameBeyond(0, last_frame, is_on_track);
     last_frame = beyond == 0 ? 0 : beyond - 1;
   }
   return last_frame;
@@ -198,8 +183,8 @@ std::uint32_t FirstStampedAt(const ScanPattern& pattern,
                              std::int64_t time_ns,
                              std::uint32_t begin,
                              std::uint32_t end) {
-  return FirstBeyond(begin, end,
-                     [&](std::uint32_t frame) { return pattern.StampNs(frame) < time_ns; });
+  return FirstFrameBeyond(begin, end,
+                          [&](std::uint32_t frame) { return pattern.StampNs(frame) < time_ns; });
 }
 
 std::uint32_t LastFrameBefore(const ScanPattern& pattern, std::int64_t time_ns) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <ranges>
 
 #include "railcast/lidar.h"
 #include "railcast/rail_world.h"
@@ -27,6 +29,15 @@ void CheckStaysOnTracks(const ScenarioSpec& scenario,
                                               const RailWorld& world,
                                               const ScanPattern& pattern,
                                               std::uint32_t last_frame);
+
+/// Returns the first frame of [begin, end) for which `is_before` is false, or `end`; it is false
+/// for all later ones, too.
+template <typename Predicate>
+[[nodiscard]] std::uint32_t FirstFrameBeyond(std::uint32_t begin,
+                                             std::uint32_t end,
+                                             const Predicate& is_before) {
+  return *std::ranges::partition_point(std::views::iota(begin, end), is_before);
+}
 
 /// Returns the first frame of [begin, end) that is stamped at a time or later, or `end`.
 [[nodiscard]] std::uint32_t FirstStampedAt(const ScanPattern& pattern,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <ranges>
 #include <stop_token>
 #include <string>
 #include <utility>
@@ -171,15 +172,9 @@ std::size_t RecordedFrames::PlaceOf(std::uint32_t frame_index) {
       place = num_passed_ - 1;
     }
     if (index_at(place) > frame_index) {
-      std::size_t begin = 0;
-      while (begin < place) {
-        const std::size_t middle = begin + (place - begin) / 2;
-        if (index_at(middle) < frame_index) {
-          begin = middle + 1;
-        } else {
-          place = middle;
-        }
-      }
+      place = *std::ranges::partition_point(
+          std::views::iota(std::size_t{0}, place),
+          [&](std::size_t earlier) { return index_at(earlier) < frame_index; });
     }
     if (index_at(place) == frame_index) return place;
   }
