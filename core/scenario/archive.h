@@ -19,50 +19,30 @@ namespace railcast {
 /// A rule of any kind (json_rules.h), which must outlive this.
 class RuleRef {
  public:
-  enum class Kind {
-    kAnything,
-    kLimits,
-    kNumberChoices,
-    kAllowedNames,
-    kOneLine,
-    kNonEmptyString,
-    kHostAndPort,
-    kExistingFile,
-    kAtLeastElements,
-    kEachNumber,
-    kNonEmptyListIf
-  };
-
   /// Implicit, so that a rule can be given as it is.
   template <class Rule>
-  requires(!std::is_same_v<Rule, RuleRef>) RuleRef(const Rule& rule)
-      : rule_(&rule), kind_(KindOf<Rule>()) {}
+  requires(!std::is_same_v<Rule, RuleRef>) RuleRef(const Rule& rule) : rule_(&rule) {}
 
-  [[nodiscard]] Kind kind() const { return kind_; }
   /// The rule, or null if it is of another kind.
   template <class Rule>
   [[nodiscard]] const Rule* As() const {
-    return kind_ == KindOf<Rule>() ? static_cast<const Rule*>(rule_) : nullptr;
+    const auto* const found = std::get_if<const Rule*>(&rule_);
+    return found == nullptr ? nullptr : *found;
   }
 
  private:
-  template <class Rule>
-  [[nodiscard]] static consteval Kind KindOf() {
-    if constexpr (std::is_same_v<Rule, Limits>) return Kind::kLimits;
-    if constexpr (std::is_same_v<Rule, NumberChoices>) return Kind::kNumberChoices;
-    if constexpr (std::is_same_v<Rule, AllowedNames>) return Kind::kAllowedNames;
-    if constexpr (std::is_same_v<Rule, OneLine>) return Kind::kOneLine;
-    if constexpr (std::is_same_v<Rule, NonEmptyString>) return Kind::kNonEmptyString;
-    if constexpr (std::is_same_v<Rule, HostAndPort>) return Kind::kHostAndPort;
-    if constexpr (std::is_same_v<Rule, ExistingFile>) return Kind::kExistingFile;
-    if constexpr (std::is_same_v<Rule, AtLeastElements>) return Kind::kAtLeastElements;
-    if constexpr (std::is_same_v<Rule, EachNumber>) return Kind::kEachNumber;
-    if constexpr (std::is_same_v<Rule, NonEmptyListIf>) return Kind::kNonEmptyListIf;
-    return Kind::kAnything;
-  }
-
-  const void* rule_;
-  Kind kind_;
+  std::variant<const Anything*,
+               const Limits*,
+               const NumberChoices*,
+               const AllowedNames*,
+               const OneLine*,
+               const NonEmptyString*,
+               const HostAndPort*,
+               const ExistingFile*,
+               const AtLeastElements*,
+               const EachNumber*,
+               const NonEmptyListIf*>
+      rule_;
 };
 
 /// Whether a value of the type can keep a rule of that kind. Rules of texts and numbers are also

@@ -67,7 +67,7 @@ void ReadSigned(JsonSource& source, const Node& node, std::int64_t& value) {
 }
 
 void ReadText(JsonSource& source, const Node& node, std::string& value, const RuleRef& rule) {
-  if (rule.kind() == RuleRef::Kind::kExistingFile) {
+  if (rule.As<ExistingFile>() != nullptr) {
     if (const auto file = source.FileNamedBy(node)) value = file->string();
     return;
   }
@@ -75,9 +75,9 @@ void ReadText(JsonSource& source, const Node& node, std::string& value, const Ru
   const auto text = node.json->get<std::string>();
   std::optional<std::string> broken;
   if (const auto* const names = rule.As<AllowedNames>()) broken = Broken(*names, text);
-  if (rule.kind() == RuleRef::Kind::kOneLine) broken = Broken(OneLine(), text);
-  if (rule.kind() == RuleRef::Kind::kNonEmptyString) broken = Broken(NonEmptyString(), text);
-  if (rule.kind() == RuleRef::Kind::kHostAndPort) broken = Broken(HostAndPort(), text);
+  if (rule.As<OneLine>() != nullptr) broken = Broken(OneLine(), text);
+  if (rule.As<NonEmptyString>() != nullptr) broken = Broken(NonEmptyString(), text);
+  if (rule.As<HostAndPort>() != nullptr) broken = Broken(HostAndPort(), text);
   if (broken) return source.Fault(node, *broken);
   value = text;
 }

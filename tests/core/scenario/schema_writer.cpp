@@ -30,37 +30,15 @@ void AddEachNumber(Json& schema, const EachNumber& rule) {
 
 // Adds a rule to a schema, as far as JSON Schema can express it.
 void AddRule(Json& schema, const RuleRef& rule) {
-  using Kind = RuleRef::Kind;
-  switch (rule.kind()) {
-    case Kind::kLimits:
-      return AddLimits(schema, *rule.As<Limits>());
-    case Kind::kNumberChoices:
-      schema["enum"] = rule.As<NumberChoices>()->numbers;
-      return;
-    case Kind::kAllowedNames:
-      schema["enum"] = rule.As<AllowedNames>()->names;
-      return;
-    case Kind::kNonEmptyString:
-      schema["minLength"] = 1;
-      schema["pattern"] = kOneLinePattern;
-      return;
-    case Kind::kOneLine:
-      schema["pattern"] = kOneLinePattern;
-      return;
-    case Kind::kHostAndPort:
-      schema["pattern"] = "^.+:[0-9]+$";
-      return;
-    case Kind::kExistingFile:
-      schema["minLength"] = 1;
-      return;
-    case Kind::kAtLeastElements:
-      return AddLeastCount(schema, rule.As<AtLeastElements>()->count);
-    case Kind::kEachNumber:
-      return AddEachNumber(schema, *rule.As<EachNumber>());
-    case Kind::kNonEmptyListIf:
-    case Kind::kAnything:
-      return;
-  }
+  if (const auto* const limits = rule.As<Limits>()) AddLimits(schema, *limits);
+  if (const auto* const choices = rule.As<NumberChoices>()) schema["enum"] = choices->numbers;
+  if (const auto* const choices = rule.As<AllowedNames>()) schema["enum"] = choices->names;
+  const bool is_filled = rule.As<NonEmptyString>() != nullptr;
+  if (is_filled || rule.As<ExistingFile>() != nullptr) schema["minLength"] = 1;
+  if (is_filled || rule.As<OneLine>() != nullptr) schema["pattern"] = kOneLinePattern;
+  if (rule.As<HostAndPort>() != nullptr) schema["pattern"] = "^.+:[0-9]+$";
+  if (const auto* const least = rule.As<AtLeastElements>()) AddLeastCount(schema, least->count);
+  if (const auto* const each = rule.As<EachNumber>()) AddEachNumber(schema, *each);
 }
 
 Json FileNameSchema() {
