@@ -104,6 +104,16 @@ class Archive {
     static_assert(CanKeep<T, Rule>(), "no value of this type keeps or breaks this rule");
     Visit({key, doc, rule, false}, RefTo(value));
   }
+  /// The key is left out where the value is `absent`. Returns whether it is given.
+  template <class T, class Rule = Anything>
+  bool OptionalUnless(
+      std::string_view key, T& value, const T& absent, const char* doc, const Rule& rule = {}) {
+    std::optional<T> given;
+    if (value != absent) given = value;
+    Optional(key, given, doc, rule);
+    if (given) value = *given;
+    return given.has_value();
+  }
   /// The key is null where there is no value.
   template <class T, class Rule = Anything>
   void Nullable(std::string_view key,

@@ -66,20 +66,18 @@ void DescribePlace(Archive& a, ObjectSpec& s) {
 }  // namespace
 
 void DescribeTracks(Archive& a, std::string& track, std::vector<std::string>& route) {
-  std::optional<std::vector<std::string>> given_route;
-  if (!route.empty()) given_route = route;
   std::optional<std::string> given_track;
   if (route.empty() && track != "main") given_track = track;
   a.OneOfTwo("track", "route");
   a.Optional("track", given_track, "The track that it runs or stands on; absent = main.");
-  a.Optional("route", given_route,
-             "Instead of track: tracks that turnouts join, one after the other in the direction of "
-             "travel.",
-             NonEmptyString());
-  a.Ensure({"track", "route"}, !given_track || !given_route, "must not be given beside route");
-  a.Ensure({"route"}, !given_route || !given_route->empty(), "must name a track");
+  const bool has_route = a.OptionalUnless(
+      "route", route, {},
+      "Instead of track: tracks that turnouts join, one after the other in the direction of "
+      "travel.",
+      NonEmptyString());
+  a.Ensure({"track", "route"}, !given_track || !has_route, "must not be given beside route");
+  a.Ensure({"route"}, !has_route || !route.empty(), "must name a track");
   if (given_track) track = *given_track;
-  if (given_route) route = *given_route;
 }
 
 void Describe(Archive& a, SpeedPoint& s) {
@@ -122,16 +120,14 @@ void Describe(Archive& a, PathSpec& s) {
 }
 
 void Describe(Archive& a, MotionSpec& s) {
-  std::optional<std::vector<SpeedPoint>> profile;
-  if (!s.profile.empty()) profile = s.profile;
   a.OneOfTwo("profile", "path");
-  a.Optional("profile", profile,
-             "Along its track, at constant acceleration between the points; all by time or all by "
-             "chainage.",
-             NonEmptyListIf{true, "; leave motion out to stand still"});
-  if (profile) s.profile = *profile;
+  const bool has_profile = a.OptionalUnless(
+      "profile", s.profile, {},
+      "Along its track, at constant acceleration between the points; all by time or all by "
+      "chainage.",
+      NonEmptyListIf{true, "; leave motion out to stand still"});
   a.Optional("path", s.path, "Instead of profile: a way across the tracks.");
-  a.Ensure({"", "profile", "path"}, profile.has_value() != s.path.has_value(),
+  a.Ensure({"", "profile", "path"}, has_profile != s.path.has_value(),
            "must have either profile or path");
   a.Optional("reverse", s.reverse, "Runs against the chainage.");
   a.Ensure({"reverse", "path"}, !s.reverse || !s.path, "must not be given beside path");

@@ -171,12 +171,10 @@ void Describe(Archive& a, ScenarioSpec& s) {
   const auto conflict = ConflictIn(SwitchedEffects(s));
   a.Ensure({"effects", "fidelity"}, !conflict, conflict.value_or(""));
   a.OneOfTwo("lidar", "lidars");
-  std::optional<LidarSpec> lidar;
-  if (s.lidar != LidarSpec{}) lidar = s.lidar;
-  a.Optional("lidar", lidar, "The only sensor; several sensors are given as lidars instead.");
-  if (lidar) s.lidar = *lidar;
+  const bool has_lidar = a.OptionalUnless(
+      "lidar", s.lidar, {}, "The only sensor; several sensors are given as lidars instead.");
   a.Optional("lidars", s.lidars, "Several sensors, instead of lidar; each has a name of its own.",
-             NonEmptyListIf{!lidar, "; a scenario has at least one sensor"});
+             NonEmptyListIf{!has_lidar, "; a scenario has at least one sensor"});
   const auto has_name = [](const LidarSpec& sensor) { return !sensor.name.empty(); };
   a.Ensure({"", "lidars"}, std::all_of(s.lidars.begin(), s.lidars.end(), has_name),
            "must have a name for each of its lidars");
@@ -201,8 +199,8 @@ void Describe(Archive& a, ScenarioSpec& s) {
   a.Types("models", s.models, "Types of objects and vehicles beside those that railcast has.");
   a.Required("world", s.world, "The railway and what stands on it.");
   // A recording may say itself which sensor made it.
-  const bool is_sensor_known = s.world.recording && !lidar && s.lidars.empty();
-  a.Ensure({"", "lidar", "lidars"}, is_sensor_known || lidar.has_value() == s.lidars.empty(),
+  const bool is_sensor_known = s.world.recording && !has_lidar && s.lidars.empty();
+  a.Ensure({"", "lidar", "lidars"}, is_sensor_known || has_lidar == s.lidars.empty(),
            "must have either lidar or lidars");
   a.Optional("vehicle", s.vehicle, "The sensor's own vehicle.");
   a.Optional("output", s.output, "Axes of the points.");

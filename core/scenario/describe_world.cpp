@@ -177,14 +177,12 @@ void Describe(Archive& a, HalfWidth& s) {
 void Describe(Archive& a, WorldSpec& s) {
   a.Optional("seed", s.seed, "Seed of the world's shape: relief, stones, plants.");
   a.OneOfTwo("alignment", "recording");
-  std::optional<AlignmentSpec> alignment;
-  if (s.alignment != AlignmentSpec{}) alignment = s.alignment;
-  a.Optional("alignment", alignment, "The axis of the line.");
-  if (alignment) s.alignment = *alignment;
+  const bool has_alignment =
+      a.OptionalUnless("alignment", s.alignment, {}, "The axis of the line.");
   a.Optional("recording", s.recording,
              "In plans of railcast-generate insert, instead of alignment: the world is a "
              "recording.");
-  a.Ensure({"", "alignment", "recording"}, alignment.has_value() != s.recording.has_value(),
+  a.Ensure({"", "alignment", "recording"}, has_alignment != s.recording.has_value(),
            "must have either alignment or recording");
   a.Optional("tracks", s.tracks, "Along the alignment.", NonEmptyList());
   a.Optional("yards", s.yards, "Ladders of tracks.");
@@ -200,13 +198,10 @@ void Describe(Archive& a, WorldSpec& s) {
              "File of railcast-generate survey, whose surfaces and wires take the place of ground, "
              "tracks, contact line and plants.",
              ExistingFile());
-  std::optional<std::vector<HalfWidth>> clear_space;
-  if (!s.clear_space.empty()) clear_space = s.clear_space;
-  a.Optional("clear_space", clear_space,
-             "What must be clear of structures: half widths on straight track without cant, linear "
-             "between the heights; absent = the outline of EBO, Anlage 2.",
-             NonEmptyList());
-  if (clear_space) s.clear_space = *clear_space;
+  a.OptionalUnless("clear_space", s.clear_space, {},
+                   "What must be clear of structures: half widths on straight track without cant, "
+                   "linear between the heights; absent = the outline of EBO, Anlage 2.",
+                   NonEmptyList());
   a.Ensure({"clear_space"}, std::ranges::is_sorted(s.clear_space, {}, &HalfWidth::height_m),
            "must have heights that do not fall");
   a.Ensure({"clear_space"}, s.clear_space.empty() || s.clear_space.back().height_m >= 2.0,
@@ -228,18 +223,13 @@ void Describe(Archive& a, RideSpec& s) {
 void Describe(Archive& a, VehicleSpec& s) {
   DescribeTracks(a, s.track, s.route);
   a.Optional("start_s_m", s.start_s_m, "Chainage of its origin at time 0.", PlaceLimits());
-  std::optional<MotionSpec> motion;
-  if (s.motion != MotionSpec{}) motion = s.motion;
-  a.Optional("motion", motion, "Along its track; absent = stands.");
-  if (motion) s.motion = *motion;
+  a.OptionalUnless("motion", s.motion, {}, "Along its track; absent = stands.");
   a.Ensure({"motion"}, !s.motion.path, "must have a profile: the vehicle keeps to its track");
-  std::optional<double> pivot_distance_m;
-  if (s.pivot_distance_m != VehicleSpec().pivot_distance_m) pivot_distance_m = s.pivot_distance_m;
-  a.Optional("pivot_distance_m", pivot_distance_m,
-             "Between the pivots on which its body rests; the front one is at its origin. 0 = it "
-             "follows the tangent; absent = 10.4, or as in consist.",
-             Within(0, 30));
-  if (pivot_distance_m) s.pivot_distance_m = *pivot_distance_m;
+  const bool has_pivot_distance = a.OptionalUnless(
+      "pivot_distance_m", s.pivot_distance_m, VehicleSpec().pivot_distance_m,
+      "Between the pivots on which its body rests; the front one is at its origin. 0 = it "
+      "follows the tangent; absent = 10.4, or as in consist.",
+      Within(0, 30));
   a.Optional("ego_boxes_m", s.ego_boxes_m,
              "Its body in the vehicle frame: min x, y, z, max x, y, z.",
              EachNumber{Within(-1000, 1000)});
@@ -251,7 +241,7 @@ void Describe(Archive& a, VehicleSpec& s) {
       "The train that the vehicle is part of, from front to rear in its direction of travel.");
   a.Optional("sensor_vehicle", s.sensor_vehicle,
              "Index of the one in consist that carries the sensor.");
-  a.Ensure({"pivot_distance_m", "consist"}, s.consist.empty() || !pivot_distance_m,
+  a.Ensure({"pivot_distance_m", "consist"}, s.consist.empty() || !has_pivot_distance,
            "must not be given beside consist");
   a.Ensure({"sensor_vehicle", "consist"},
            s.sensor_vehicle < std::max<std::size_t>(s.consist.size(), 1),
