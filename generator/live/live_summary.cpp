@@ -46,6 +46,22 @@ void PutTimes(const LiveRecord& record, std::ostream& text) {
   if (record.uncertified_frames) PutQuantiles("certify", record.certify, text);
 }
 
+struct FrameTotals {
+  std::uint64_t num_made{};
+  std::uint64_t num_late{};
+  std::uint64_t num_dropped{};
+};
+
+FrameTotals FramesOfAll(const std::vector<LiveRecord>& records) {
+  FrameTotals counts;
+  for (const LiveRecord& record : records) {
+    counts.num_made += record.frames;
+    counts.num_late += record.late_frames;
+    counts.num_dropped += record.dropped_frames;
+  }
+  return counts;
+}
+
 // Empty where no frame was dropped.
 std::string DroppedText(std::uint64_t num_dropped) {
   return num_dropped > 0 ? ", " + std::to_string(num_dropped) + " dropped" : "";
@@ -54,14 +70,7 @@ std::string DroppedText(std::uint64_t num_dropped) {
 }  // namespace
 
 std::optional<std::string> LagReport::After(const RunState& state) {
-  std::uint64_t num_made = 0;
-  std::uint64_t num_late = 0;
-  std::uint64_t num_dropped = 0;
-  for (const LiveRecord& record : state.records) {
-    num_made += record.frames;
-    num_late += record.late_frames;
-    num_dropped += record.dropped_frames;
-  }
+  const auto [num_made, num_late, num_dropped] = FramesOfAll(state.records);
   const bool keeps_up = drops_late_ ? num_dropped == num_dropped_ : state.behind_ns < kLag_ns;
   if (keeps_up) return std::nullopt;
   if (said_ns_ && state.now_ns - *said_ns_ < kPause_ns) return std::nullopt;
@@ -136,26 +145,14 @@ std::string LiveSummaryJson(std::string_view command,
 }
 
 std::string LateText(const std::vector<LiveRecord>& records) {
-  std::uint64_t num_frames = 0;
-  std::uint64_t num_late = 0;
-  std::uint64_t num_dropped = 0;
-  for (const LiveRecord& record : records) {
-    num_frames += record.frames;
-    num_late += record.late_frames;
-    num_dropped += record.dropped_frames;
-  }
+  const auto [num_frames, num_late, num_dropped] = FramesOfAll(records);
   if (num_late + num_dropped == 0) return "";
   return std::to_string(num_late) + " of " + std::to_string(num_frames) + " frames late" +
          DroppedText(num_dropped);
 }
 
 std::string LiveProgress(const RunState& state) {
-  std::uint64_t num_late = 0;
-  std::uint64_t num_dropped = 0;
-  for (const LiveRecord& record : state.records) {
-    num_late += record.late_frames;
-    num_dropped += record.dropped_frames;
-  }
+  const auto [num_made, num_late, num_dropped] = FramesOfAll(state.records);
   const std::uint64_t frames = state.records.front().frames;
   std::ostringstream text;
   text << std::fixed << std::setprecision(1) << SecondsFromNs(state.stamp_ns) << " s, " << frames
