@@ -1,7 +1,7 @@
 #include "viewer/gui/gui.h"
 
-#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
+#include <vtkCommand.h>
 #include <vtkObjectFactory.h>
 #include <vtkProperty2D.h>
 #include <vtkTextProperty.h>
@@ -101,13 +101,11 @@ Scrubber::Scrubber(vtkRenderWindowInteractor& interactor,
   widget_->SetInteractor(&interactor);
   widget_->SetRepresentation(looks_);
   widget_->SetAnimationModeToJump();
-  vtkNew<vtkCallbackCommand> dragged;
-  dragged->SetClientData(this);
-  dragged->SetCallback([](vtkObject*, unsigned long, void* self_data, void*) {
-    auto& self = *static_cast<Scrubber*>(self_data);
-    self.on_drag_(static_cast<std::size_t>(std::lround(self.looks_->GetValue())));
-  });
-  widget_->AddObserver(vtkCommand::InteractionEvent, dragged);
+  widget_->AddObserver(vtkCommand::InteractionEvent, this, &Scrubber::OnDrag);
+}
+
+void Scrubber::OnDrag() {
+  on_drag_(static_cast<std::size_t>(std::lround(looks_->GetValue())));
 }
 
 void Scrubber::Show(std::size_t place,
@@ -176,20 +174,8 @@ void Gui::Run() {
   scrubber_ =
       std::make_unique<Scrubber>(*interactor_, stage_.plates_renderer(),
                                  [this](std::size_t place) { Guard([&] { SeekTo(place); }); });
-  vtkNew<vtkCallbackCommand> tick;
-  tick->SetClientData(this);
-  tick->SetCallback([](vtkObject*, unsigned long, void* self_data, void*) {
-    auto& self = *static_cast<Gui*>(self_data);
-    self.Guard([&self] { self.OnTimer(); });
-  });
-  interactor_->AddObserver(vtkCommand::TimerEvent, tick);
-  vtkNew<vtkCallbackCommand> resized;
-  resized->SetClientData(this);
-  resized->SetCallback([](vtkObject*, unsigned long, void* self_data, void*) {
-    auto& self = *static_cast<Gui*>(self_data);
-    self.Guard([&self] { self.Redraw(); });
-  });
-  interactor_->AddObserver(vtkCommand::ConfigureEvent, resized);
+  interactor_->AddObserver(vtkCommand::TimerEvent, this, &Gui::Guarded<&Gui::OnTimer>);
+  interactor_->AddObserver(vtkCommand::ConfigureEvent, this, &Gui::Guarded<&Gui::Redraw>);
   interactor_->CreateRepeatingTimer(kPeriod_ms);
   playback_.Begin(Now_s());
   Guard([this] { Refresh(); });

@@ -84,6 +84,8 @@ class Scrubber {
   void Show(std::size_t place, std::size_t first, std::size_t last, const Background& background);
 
  private:
+  void OnDrag();
+
   vtkRenderer& renderer_;
   std::function<void(std::size_t)> on_drag_;
   vtkNew<vtkSliderRepresentation2D> looks_;
@@ -117,6 +119,10 @@ class Gui {
   /// Runs an action. No exception may pass through VTK's event loop: an InputError is shown, any
   /// other is kept for Run() to rethrow.
   void Guard(const std::function<void()>& action);
+  template <void (Gui::*kAction)()>
+  void Guarded() {
+    Guard([this] { (this->*kAction)(); });
+  }
 
   void Step(std::ptrdiff_t num_frames);
   void SeekTo(std::size_t place);
