@@ -24,17 +24,17 @@ namespace railcast {
 
 namespace {
 
-/// Makes one cell of all points.
-void MakeVertices(std::size_t num_points, vtkCellArray& vertices) {
-  const auto count = static_cast<vtkIdType>(num_points);
+/// Makes cells of `size` points each: 0 1 2 ..., as far as the cells go.
+void MakeCells(std::size_t num_cells, std::size_t size, vtkCellArray& cells) {
+  const auto count = static_cast<vtkIdType>(num_cells);
+  const auto step = static_cast<vtkIdType>(size);
   vtkNew<vtkIdTypeArray> offsets;
-  offsets->SetNumberOfValues(2);
-  offsets->SetValue(0, 0);
-  offsets->SetValue(1, count);
+  offsets->SetNumberOfValues(count + 1);
+  for (vtkIdType i = 0; i <= count; ++i) offsets->SetValue(i, step * i);
   vtkNew<vtkIdTypeArray> indices;
-  indices->SetNumberOfValues(count);
-  std::iota(indices->GetPointer(0), indices->GetPointer(0) + count, 0);
-  vertices.SetData(offsets, indices);
+  indices->SetNumberOfValues(step * count);
+  std::iota(indices->GetPointer(0), indices->GetPointer(0) + step * count, 0);
+  cells.SetData(offsets, indices);
 }
 
 Rgb Faint(const Rgb& rgb, const Rgb& background) {
@@ -42,20 +42,6 @@ Rgb Faint(const Rgb& rgb, const Rgb& background) {
     return static_cast<std::uint8_t>((value + 2 * behind) / 3);
   };
   return {mix(rgb[0], background[0]), mix(rgb[1], background[1]), mix(rgb[2], background[2])};
-}
-
-/// Returns cells of two points each: 0 1, 2 3, ...
-vtkSmartPointer<vtkCellArray> MakePairs(std::size_t num_pairs) {
-  const auto count = static_cast<vtkIdType>(num_pairs);
-  vtkNew<vtkIdTypeArray> offsets;
-  offsets->SetNumberOfValues(count + 1);
-  for (vtkIdType i = 0; i <= count; ++i) offsets->SetValue(i, 2 * i);
-  vtkNew<vtkIdTypeArray> indices;
-  indices->SetNumberOfValues(2 * count);
-  std::iota(indices->GetPointer(0), indices->GetPointer(0) + 2 * count, 0);
-  auto pairs = vtkSmartPointer<vtkCellArray>::New();
-  pairs->SetData(offsets, indices);
-  return pairs;
 }
 
 unsigned char Alpha(float opacity) {
@@ -82,18 +68,11 @@ vtkSmartPointer<vtkPolyData> MakeTriangles(const Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     points->SetPoint(static_cast<vtkIdType>(i), mesh.vertices[i].cast<double>().eval().data());
   }
-  const auto count = static_cast<vtkIdType>(mesh.triangles.size());
-  vtkNew<vtkIdTypeArray> offsets;
-  offsets->SetNumberOfValues(count + 1);
-  vtkNew<vtkIdTypeArray> indices;
-  indices->SetNumberOfValues(3 * count);
-  for (vtkIdType i = 0; i <= count; ++i) offsets->SetValue(i, 3 * i);
-  for (vtkIdType i = 0; i < 3 * count; ++i) {
-    indices->SetValue(
-        i, mesh.triangles[static_cast<std::size_t>(i / 3)][static_cast<std::size_t>(i % 3)]);
-  }
   vtkNew<vtkCellArray> faces;
-  faces->SetData(offsets, indices);
+  faces->AllocateEstimate(static_cast<vtkIdType>(mesh.triangles.size()), 3);
+  for (const auto& triangle : mesh.triangles) {
+    faces->InsertNextCell({triangle[0], triangle[1], triangle[2]});
+  }
   auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(points);
   data->SetPolys(faces);
@@ -128,7 +107,7 @@ void CloudActor::Show(const PlacedCloud& cloud, const Look& look) {
   rgb_->SetArray(reinterpret_cast<unsigned char*>(colors_.data()),
                  3 * static_cast<vtkIdType>(colors_.size()), kOurs);
   if (vertices_->GetNumberOfConnectivityIds() != static_cast<vtkIdType>(shown_->num_points())) {
-    MakeVertices(shown_->num_points(), *vertices_);
+    MakeCells(1, shown_->num_points(), *vertices_);
   }
   data_->SetVerts(shown_->num_points() > 0 ? vertices_.Get() : nullptr);
   positions_->Modified();
@@ -159,7 +138,9 @@ vtkSmartPointer<vtkActor> MakeLines(const Overlay& drawing, double width_px) {
   }
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
-  data->SetLines(MakePairs(drawing.segments.size()));
+  vtkNew<vtkCellArray> pairs;
+  MakeCells(drawing.segments.size(), 2, *pairs);
+  data->SetLines(pairs);
   data->GetPointData()->SetScalars(colors);
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(data);
