@@ -13,7 +13,9 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
+#include <vtkPolyDataMapper2D.h>
 #include <vtkProperty.h>
+#include <vtkProperty2D.h>
 #include <vtkTextProperty.h>
 #include <vtkUnsignedCharArray.h>
 
@@ -184,6 +186,30 @@ Overlay OnBackground(Overlay drawing, const Background& background) {
   }
   for (Overlay::Word& word : drawing.words) word.rgb = OnBackground(word.rgb, background);
   return drawing;
+}
+
+vtkSmartPointer<vtkActor2D> MakeShape(const std::vector<Eigen::Vector2d>& points_px,
+                                      bool is_filled,
+                                      const Rgb& rgb) {
+  vtkNew<vtkPoints> places;
+  vtkNew<vtkCellArray> cells;
+  cells->InsertNextCell(static_cast<int>(points_px.size()));
+  for (const Eigen::Vector2d& point_px : points_px) {
+    cells->InsertCellPoint(places->InsertNextPoint(point_px.x(), point_px.y(), 0.0));
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(places);
+  if (is_filled) {
+    data->SetPolys(cells);
+  } else {
+    data->SetLines(cells);
+  }
+  vtkNew<vtkPolyDataMapper2D> mapper;
+  mapper->SetInputData(data);
+  auto actor = vtkSmartPointer<vtkActor2D>::New();
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(VtkColor(rgb).data());
+  return actor;
 }
 
 std::vector<vtkSmartPointer<vtkActor>> MakeSurfaces(const std::vector<Part>& parts,

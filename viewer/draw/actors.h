@@ -3,7 +3,10 @@
 #include <memory>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include <vtkActor.h>
+#include <vtkActor2D.h>
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
 #include <vtkMatrix4x4.h>
@@ -57,6 +60,11 @@ class CloudActor {
 
 /// Returns the overlay; its light lines and words are darkened if the background is light.
 [[nodiscard]] Overlay OnBackground(Overlay drawing, const Background& background);
+
+/// Makes a line through points in pixels of the window, or the area between them.
+[[nodiscard]] vtkSmartPointer<vtkActor2D> MakeShape(const std::vector<Eigen::Vector2d>& points_px,
+                                                    bool is_filled,
+                                                    const Rgb& rgb);
 
 /// Makes translucent surfaces in the colours of their labels, in the axes of the parts.
 [[nodiscard]] std::vector<vtkSmartPointer<vtkActor>> MakeSurfaces(const std::vector<Part>& parts,

@@ -1,14 +1,9 @@
 #include "viewer/draw/pane.h"
 
 #include <vtkActor2D.h>
-#include <vtkCellArray.h>
 #include <vtkCoordinate.h>
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper2D.h>
-#include <vtkProperty2D.h>
 #include <vtkScalarBarActor.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
@@ -17,6 +12,7 @@
 #include <string>
 
 #include "viewer/composition/status_text.h"
+#include "viewer/draw/actors.h"
 #include "viewer/draw/text_style.h"
 #include "viewer/draw/vtk_values.h"
 
@@ -28,21 +24,9 @@ constexpr std::size_t kMaxLines = 24;
 
 /// Makes a square with its lower left corner at (left, bottom), in pixels.
 vtkSmartPointer<vtkActor2D> MakeSwatch(const Rgb& rgb, double left, double bottom, double side) {
-  vtkNew<vtkPoints> corners;
-  for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
-    corners->InsertNextPoint(left + x * side, bottom + y * side, 0.0);
-  }
-  vtkNew<vtkCellArray> faces;
-  faces->InsertNextCell({0, 1, 2, 3});
-  vtkNew<vtkPolyData> square;
-  square->SetPoints(corners);
-  square->SetPolys(faces);
-  vtkNew<vtkPolyDataMapper2D> mapper;
-  mapper->SetInputData(square);
-  auto actor = vtkSmartPointer<vtkActor2D>::New();
-  actor->SetMapper(mapper);
-  actor->GetProperty()->SetColor(VtkColor(rgb).data());
-  return actor;
+  const double right = left + side;
+  const double top = bottom + side;
+  return MakeShape({{left, bottom}, {right, bottom}, {right, top}, {left, top}}, true, rgb);
 }
 
 /// Returns the categories to be listed, by rising value; `num_others` counts the rest.

@@ -1,11 +1,7 @@
 #include "viewer/plan/draw_plan.h"
 
 #include <vtkActor2D.h>
-#include <vtkCellArray.h>
 #include <vtkNew.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper2D.h>
 #include <vtkProperty2D.h>
 #include <vtkRenderer.h>
 #include <vtkTextActor.h>
@@ -89,26 +85,9 @@ class PlanSheet {
 
   /// A line through the points, or the area between them.
   vtkProperty2D* AddShape(const std::vector<Place>& points, bool is_filled, const Rgb& rgb) {
-    vtkNew<vtkPoints> places;
-    vtkNew<vtkCellArray> cells;
-    cells->InsertNextCell(static_cast<int>(points.size()));
-    for (const Place& point : points) {
-      cells->InsertCellPoint(places->InsertNextPoint(point.x(), point.y(), 0.0));
-    }
-    vtkNew<vtkPolyData> data;
-    data->SetPoints(places);
-    if (is_filled) {
-      data->SetPolys(cells);
-    } else {
-      data->SetLines(cells);
-    }
-    vtkNew<vtkPolyDataMapper2D> mapper;
-    mapper->SetInputData(data);
-    vtkNew<vtkActor2D> actor;
-    actor->SetMapper(mapper);
-    last_ = actor->GetProperty();
-    last_->SetColor(VtkColor(OnBackground(rgb, background_)).data());
+    const auto actor = MakeShape(points, is_filled, OnBackground(rgb, background_));
     renderer_->AddActor2D(actor);
+    last_ = actor->GetProperty();
     return last_;
   }
 
