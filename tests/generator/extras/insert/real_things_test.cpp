@@ -226,9 +226,7 @@ Echoes PutAgain(CutThing cut, Fidelity rung = Fidelity::kFootprint) {
 const std::pair<CutThing, Echoes>& CutOutAndPutAgain(const RealThing& thing) {
   static std::map<std::string, std::pair<CutThing, Echoes>> made;
   auto& again = made[thing.recording + ", " + thing.what];
-  if (!again.second.empty()) return again;
-  again.first = CutOutOfCapture(thing);
-  again.second = PutAgain(again.first);
+  if (again.second.empty()) again.second = PutAgain(again.first = CutOutOfCapture(thing));
   return again;
 }
 
@@ -495,8 +493,7 @@ TEST(RealThings, GiveTheirRowsToOtherClassifiers) {
       for (const double value : rows.features[i]) out << ',' << value;
     }
   }
-  out << '\n';
-  EXPECT_TRUE(out.good());
+  EXPECT_TRUE((out << '\n').good());
 }
 
 }  // namespace
