@@ -90,7 +90,10 @@ struct Simulator::Parts {
     return *begun.pattern;
   }
   [[nodiscard]] const FiringTiles& TilesOf(BegunFrame& begun) const {
-    if (begun.tiles == nullptr) begun.tiles = TilesOf(begun.index);
+    if (begun.tiles == nullptr) {
+      begun.tiles = begun.pattern == nullptr ? TilesOf(begun.index)
+                                             : std::make_shared<const FiringTiles>(*begun.pattern);
+    }
     return *begun.tiles;
   }
   /// For WithinMemory: "making frame 3 (28800 firings)".
