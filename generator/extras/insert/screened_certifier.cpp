@@ -109,7 +109,7 @@ void ScreenedCertifier::FillGrid(const RecordedScan& recorded,
                                  std::span<const std::uint32_t> near) {
   const ScanPattern& pattern = recorded.pattern;
   grid_.index = recorded.index;
-  // Few cells are filled of many, which another frame of as many finds empty again.
+  // Only the cells that the last frame filled are emptied: they are few of many.
   if (grid_.rows != pattern.rows || grid_.columns != pattern.columns) {
     grid_.Resize(pattern.rows, pattern.columns, 1);
     filled_.resize(grid_.num_slots());

@@ -106,7 +106,7 @@ class ScreenedCertifier {
   double
       cost_of_others_{};  ///< What a firing takes that is not traced; in multiples of one that is.
   Frame grid_;            ///< What the firings that are certified meet first.
-  std::vector<std::uint32_t> filled_;  ///< Cells of it.
+  std::vector<std::uint32_t> filled_;  ///< Those of its cells that may not be empty.
 };
 
 }  // namespace railcast
