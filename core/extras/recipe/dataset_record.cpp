@@ -83,7 +83,7 @@ void Describe(Archive& a, IndexRecord& s) {
   a.Required("vehicle_speed_mps", s.vehicle_speed_mps, "");
   a.Optional("bag", s.bag, "");
   a.Optional("trace", s.trace, "");
-  Describe(a, s.counts);
+  DescribeKnown(a, s.counts);
   a.Required("objects", s.objects, "");
   a.Required("drawn", s.drawn, "");
   a.Required("weather", s.weather, "");

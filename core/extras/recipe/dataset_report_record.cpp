@@ -68,8 +68,8 @@ void Describe(Archive& a, DatasetReportRecord& s) {
   a.Required("frames_without_points", s.frames_without_points, "");
   a.Required("frames_without_objects", s.frames_without_objects, "With no point on any object.");
   a.Required("duplicate_frames", s.duplicate_frames, "Of frames with the same bytes, all but one.");
-  Describe(a, s.counts);
-  a.Required("labels", s.labels, "By label.");
+  DescribeKnown(a, s.counts);
+  a.Required("labels", s.labels, "By label; empty where labels are not counted.");
   a.Required("objects", s.objects, "By type.");
   a.Required("weathers", s.weathers, "Scenarios.");
   a.Required("drawn", s.drawn, "Scenarios by the words of each draw.");

@@ -113,6 +113,20 @@ void Describe(Archive& a, FrameCounts& s) {
   a.Required("points_per_label", s.points_per_label, "Of the labels that have any.");
 }
 
+void DescribeKnown(Archive& a, FrameCounts& s) {
+  std::optional<OutcomeCounts> outcomes;
+  std::optional<std::map<std::string, std::uint64_t>> points_per_label;
+  if (s.outcomes != OutcomeCounts()) {
+    outcomes = s.outcomes;
+    points_per_label = s.points_per_label;
+  }
+  a.Required("points", s.points, "Slots with a point.");
+  a.Optional("outcomes", outcomes, "Firings with each outcome, where they are known.");
+  a.Optional("points_per_label", points_per_label, "Of the labels that have any; known with them.");
+  if (outcomes) s.outcomes = *outcomes;
+  if (points_per_label) s.points_per_label = *std::move(points_per_label);
+}
+
 void FrameCounts::Add(const FrameCounts& other) {
   points += other.points;
   for (std::size_t i = 0; i < outcomes.size(); ++i) outcomes[i] += other.outcomes[i];

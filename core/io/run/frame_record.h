@@ -78,6 +78,10 @@ struct FrameCounts {
 
 void Describe(Archive& a, FrameCounts& s);
 
+/// Describes counts of frames of which only the points may be known, as those of clouds into which
+/// something was put. The other keys are left out where no firing is counted.
+void DescribeKnown(Archive& a, FrameCounts& s);
+
 /// The sensor's pose at a time during a frame's scan.
 struct RecordedScanPose {
   std::uint32_t time_ns{};               ///< Time since the stamp.

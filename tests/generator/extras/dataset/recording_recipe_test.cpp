@@ -313,8 +313,14 @@ TEST_F(RecordingRecipe, IndexesCloudsInAnotherFormatByWhatInsertSaysOfThem) {
     const fs::path folder = Path("pcd") / frame.at("folder").get<std::string>();
     EXPECT_TRUE(fs::exists(folder / frame.at("files").at(0).get<std::string>()));
     EXPECT_EQ(frame.at("objects").back().at("points"), same.at("objects").back().at("points"));
+    for (const char* const key : {"outcomes", "points_per_label"}) {
+      EXPECT_TRUE(same.contains(key) && !frame.contains(key)) << key << " is not known of clouds";
+    }
   }
   EXPECT_EQ(num_frames, 30U);
+  const Json report = Json::parse(ReadFileWhole(Path("pcd/report.json")));
+  EXPECT_GT(report.at("points"), 0);
+  EXPECT_FALSE(report.contains("outcomes"));
 }
 
 TEST_F(RecordingRecipe, NamesWhatCannotBeDrawn) {
