@@ -94,16 +94,19 @@ bool NearObjects::MayMeet(std::size_t firing, double beside_rad) const {
   });
 }
 
-std::vector<bool> NearObjects::Beams(double beside_rad,
-                                     std::optional<std::span<const std::uint32_t>> among) const {
-  std::vector<bool> is_near(pattern_.num_firings());
-  if (spheres_.empty()) return is_near;
+std::vector<std::uint32_t> NearObjects::Beams(
+    double beside_rad, std::optional<std::span<const std::uint32_t>> among) const {
+  std::vector<std::uint32_t> firings;
+  if (spheres_.empty()) return firings;
+  const auto add = [&](std::uint32_t firing) {
+    if (MayMeet(firing, beside_rad)) firings.push_back(firing);
+  };
   if (among) {
-    for (const std::uint32_t firing : *among) is_near[firing] = MayMeet(firing, beside_rad);
-    return is_near;
+    std::ranges::for_each(*among, add);
+  } else {
+    for (std::uint32_t i = 0; i < pattern_.num_firings(); ++i) add(i);
   }
-  for (std::size_t i = 0; i < is_near.size(); ++i) is_near[i] = MayMeet(i, beside_rad);
-  return is_near;
+  return firings;
 }
 
 }  // namespace railcast

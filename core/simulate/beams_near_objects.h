@@ -33,7 +33,7 @@ struct MovingSphere {
 /// are left out.
 ///
 ///     const NearObjects near(world, objects, pattern, reach);
-///     const std::vector<bool> may_meet = near.Beams(BesideBeam_rad(detector));
+///     const std::vector<std::uint32_t> may_meet = near.Beams(BesideBeam_rad(detector));
 class NearObjects {
  public:
   /// @param objects Indices into world.objects().
@@ -43,12 +43,11 @@ class NearObjects {
               const ScanPattern& pattern,
               const BeamReach& reach);
 
-  /// For each firing of the pattern, whether its beam may meet one of the objects: all that do are
+  /// The firings of the pattern, rising, whose beams may meet one of the objects: all that do are
   /// among them, and some that do not.
   /// @param beside_rad As BesideBeam_rad().
-  /// @param among The firings of those of a wider beam, beside which there are none; absent if they
-  ///   are not known.
-  [[nodiscard]] std::vector<bool> Beams(
+  /// @param among Those of a wider beam, beside which there are none; absent if they are not known.
+  [[nodiscard]] std::vector<std::uint32_t> Beams(
       double beside_rad, std::optional<std::span<const std::uint32_t>> among = {}) const;
 
  private:

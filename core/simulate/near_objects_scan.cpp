@@ -15,7 +15,9 @@ namespace {
 // In tracing order, all firings of those packets in which one is near: so each is traced as in a
 // whole frame, to the last bit.
 std::vector<std::uint32_t> PacketsWith(const ScanPattern& pattern,
-                                       const std::vector<bool>& is_near) {
+                                       std::span<const std::uint32_t> near) {
+  std::vector<bool> is_near(pattern.num_firings());
+  for (const std::uint32_t firing : near) is_near[firing] = true;
   std::vector<std::uint32_t> firings;
   for (std::size_t begin = 0; begin < pattern.num_firings(); begin += kPacketSize) {
     const std::size_t end = std::min(begin + kPacketSize, pattern.num_firings());
@@ -54,13 +56,13 @@ void Simulator::ScanNearObjects(BegunFrame& begun,
   WithinMemory(parts.Making(begun.index), [&] {
     const ScanPattern& pattern = parts.PatternOf(begun);
     const NearObjects near(world(), objects, pattern, ReachInFrame(parts.spec, begun.stamp_ns));
-    const std::vector<bool> is_near = near.Beams(BesideBeam_rad(parts.spec.detector));
     const FiringTiles& all = parts.TilesOf(begun);
     frame.has_velocity = parts.spec.detector.velocity.has_value();
     parts.Prepare(begun.index, all, frame);
     frame.Resize(pattern.rows, pattern.columns, NumReturns(parts.own->return_mode()));
     ClearSlots(frame);
-    std::vector<std::uint32_t> order = PacketsWith(pattern, is_near);
+    std::vector<std::uint32_t> order =
+        PacketsWith(pattern, near.Beams(BesideBeam_rad(parts.spec.detector)));
     if (!order.empty()) {
       const FiringTiles firings(pattern, std::move(order));
       const FrameScene& scene = parts.SceneOf(begun);
@@ -70,8 +72,8 @@ void Simulator::ScanNearObjects(BegunFrame& begun,
   });
 }
 
-std::vector<bool> Simulator::FiringsNearObjects(BegunFrame& begun,
-                                                std::span<const std::size_t> objects) const {
+std::vector<std::uint32_t> Simulator::FiringsNearObjects(
+    BegunFrame& begun, std::span<const std::size_t> objects) const {
   Parts& parts = *parts_;
   double beside_rad = BesideBeam_rad(parts.spec.detector);
   parts.MakeOthers();
@@ -81,12 +83,12 @@ std::vector<bool> Simulator::FiringsNearObjects(BegunFrame& begun,
   return WithinMemory(parts.Making(begun.index), [&] {
     const ScanPattern& pattern = parts.PatternOf(begun);
     const NearObjects near(world(), objects, pattern, ReachInFrame(parts.spec, begun.stamp_ns));
-    const std::vector<bool> is_near = near.Beams(beside_rad);
-    std::vector<bool> by_cell(std::size_t{pattern.rows} * pattern.columns);
-    for (std::size_t i = 0; i < is_near.size(); ++i) {
-      by_cell[pattern.row[i] * pattern.columns + pattern.column[i]] = is_near[i];
+    std::vector<std::uint32_t> cells = near.Beams(beside_rad);
+    for (std::uint32_t& cell : cells) {
+      cell = pattern.row[cell] * pattern.columns + pattern.column[cell];
     }
-    return by_cell;
+    std::ranges::sort(cells);
+    return cells;
   });
 }
 

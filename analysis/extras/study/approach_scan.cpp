@@ -108,10 +108,7 @@ void ApproachScanner::Certify(BegunFrame& begun,
                               const Frame& frame) {
   if (!certifier_) return;
   CertifiedRegion region;
-  const std::vector<bool> is_near = simulator_->FiringsNearObjects(begun, objects);
-  for (std::uint32_t cell = 0; cell < is_near.size(); ++cell) {
-    if (is_near[cell]) region.cells.push_back(cell);
-  }
+  region.cells = simulator_->FiringsNearObjects(begun, objects);
   for (const std::size_t i : objects) {
     const SceneObject& object = world_->objects()[i];
     region.instances.insert(object.instance);

@@ -206,9 +206,9 @@ class Simulator {
   /// Which beams of a frame may meet one of some objects, with the simulator's own effects or with
   /// those of a variant: all that do are among them, and some that do not.
   /// @param objects As for ScanNearObjects().
-  /// @return By cell, row * columns + column.
-  [[nodiscard]] std::vector<bool> FiringsNearObjects(BegunFrame& begun,
-                                                     std::span<const std::size_t> objects) const;
+  /// @return Their cells, row * columns + column, rising: as ScanFirings() takes them.
+  [[nodiscard]] std::vector<std::uint32_t> FiringsNearObjects(
+      BegunFrame& begun, std::span<const std::size_t> objects) const;
 
   /// Tells the ways in which ScanFirings() makes firings.
   void UseVariants(std::vector<FiringVariant> variants);

@@ -156,13 +156,9 @@ FrameCertificate ScreenedCertifier::Certify(const RecordedScan& recorded,
       certifier_.num_expected() * (static_cast<double>(near.size()) +
                                    cost_of_others_ * static_cast<double>(pattern.num_firings()));
   const auto scan = [&](std::span<const std::uint32_t> cells, std::span<Frame> frames) {
-    std::vector<bool> is_wanted(pattern.num_firings());
     std::vector<std::uint32_t> firings;
-    for (const std::uint32_t cell : cells) {
-      firings.push_back(firing_of.at(cell));
-      is_wanted[firings.back()] = true;
-    }
-    FillFrames(recorded, firings, make(is_wanted), frames);
+    for (const std::uint32_t cell : cells) firings.push_back(firing_of.at(cell));
+    FillFrames(recorded, firings, make(firings), frames);
   };
   return certifier_.Certify(grid_, &region, scan);
 }

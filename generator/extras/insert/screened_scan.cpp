@@ -155,7 +155,7 @@ struct ScreenedScan::Parts {
     std::uint32_t duration_ns;
     std::uint32_t returns;
     std::vector<std::uint32_t> order;
-    const std::vector<bool>& is_near;  ///< Whether they may meet an object.
+    std::vector<std::uint32_t> near;  ///< Those that may meet an object.
   };
 
   /// One frame on its way.
@@ -278,16 +278,19 @@ struct ScreenedScan::Parts {
     }
   }
 
-  [[nodiscard]] ScreenedFrame MakeFirings(const Way& way, const Wanted& wanted, bool is_own) {
+  /// @param recorded_returns Of `order` if beams that meet nothing change, else of `near`: the
+  ///   screens of all others take longer than the trace of a few.
+  [[nodiscard]] ScreenedFrame MakeFirings(const Way& way,
+                                          const Wanted& wanted,
+                                          FewReturns recorded_returns,
+                                          bool is_own) {
     ScreenedFrame frame;
-    const auto& [recorded, scene, duration_ns, returns, order, is_near] = wanted;
+    const auto& [recorded, scene, duration_ns, returns, order, near] = wanted;
     const DetectorSpec& detector = way.spec.detector;
-    const auto near = Those(order, [&](std::uint32_t firing) { return is_near[firing]; });
     const bool makes_others = ChangesEmptyBeams(detector);
     ScreenSurfaces surfaces{.all = scene.surfaces(), .alone = {}};
-    // Without the screens of all others, which take longer than the trace of a few.
-    const Screens screens = MakeScreens(detector, ReturnsOf(makes_others ? order : near, recorded),
-                                        first_material, surfaces);
+    const Screens screens =
+        MakeScreens(detector, std::move(recorded_returns), first_material, surfaces);
     const CastFrame cast = CastOf(way, scene, surfaces.all, screens, duration_ns);
     const ReturnRule rule = RuleFor(detector, returns);
     const ScreenEchoes screen_echoes(detector, rule, cast, screens, surfaces);
@@ -330,17 +333,17 @@ struct ScreenedScan::Parts {
   }
 
   [[nodiscard]] std::vector<std::vector<ChangedFiring>> MakeAnew(
-      const Wanted& wanted, const std::vector<bool>& is_wanted) {
-    const Wanted those{wanted.recorded,
-                       wanted.scene,
-                       wanted.duration_ns,
-                       wanted.returns,
-                       Those(wanted.order, [&](std::uint32_t firing) { return is_wanted[firing]; }),
-                       is_wanted};
+      const Wanted& wanted, const std::vector<std::uint32_t>& firings) {
+    const Wanted those{wanted.recorded, wanted.scene, wanted.duration_ns,
+                       wanted.returns,  firings,      firings};
+    const FewReturns recorded_returns = ReturnsOf(firings, wanted.recorded);
     std::vector<std::vector<ChangedFiring>> changed;
-    for (const Way& way : variants) changed.push_back(MakeFirings(way, those, false).firings);
+    for (const Way& way : variants) {
+      changed.push_back(MakeFirings(way, those, recorded_returns, false).firings);
+    }
     return changed;
   }
+
   [[nodiscard]] std::vector<ObjectView> ViewObjects(const Job& job,
                                                     const FrameScene& scene,
                                                     const std::vector<std::uint32_t>& order) {
@@ -376,20 +379,18 @@ struct ScreenedScan::Parts {
       }
     }
     const NearObjects near = ObjectsNear(recorded);
-    std::vector<bool> is_near = near.Beams(widest_rad);
-    std::vector<std::uint32_t> are_certified;
-    if (certify) {
-      for (std::uint32_t i = 0; i < is_near.size(); ++i) {
-        if (is_near[i]) are_certified.push_back(i);
-      }
-    }
+    const std::vector<std::uint32_t> widest = near.Beams(widest_rad);
     // The frame itself traces no others with them, which would move its rays by parts of 1e-7.
-    if (widest_rad > beside_rad) is_near = near.Beams(beside_rad, are_certified);
-    const Wanted all{recorded, scene, duration_ns, returns, TracingOrder(pattern), is_near};
-    ScreenedFrame frame = MakeFirings(own, all, true);
+    std::vector<bool> is_near(pattern.num_firings());
+    for (const std::uint32_t i : near.Beams(beside_rad, widest)) is_near[i] = true;
+    Wanted all{recorded, scene, duration_ns, returns, TracingOrder(pattern), {}};
+    all.near = Those(all.order, [&](std::uint32_t firing) { return is_near[firing]; });
+    ScreenedFrame frame = MakeFirings(
+        own, all, ReturnsOf(ChangesEmptyBeams(own.spec.detector) ? all.order : all.near, recorded),
+        true);
     if (certify) {
-      certify(frame, are_certified,
-              [&](const std::vector<bool>& is_wanted) { return MakeAnew(all, is_wanted); });
+      certify(frame, widest,
+              [&](const std::vector<std::uint32_t>& firings) { return MakeAnew(all, firings); });
     }
     return frame;
   }

@@ -59,7 +59,7 @@ class ScreenedScan {
   /// Makes some firings of a frame in each variant, in the same scene and with the same random
   /// draws; returns what each has changed, by variant and in the order of the firings.
   using MakeAnew =
-      std::function<std::vector<std::vector<ChangedFiring>>(const std::vector<bool>& is_wanted)>;
+      std::function<std::vector<std::vector<ChangedFiring>>(const std::vector<std::uint32_t>&)>;
   /// Is called with a frame that is made.
   /// @param near The firings whose beams may meet an object, in any of the variants.
   using Certify = std::function<void(
