@@ -1,8 +1,8 @@
 """Whether nobody loses a frame: mended_folders_test.py BUILD_DIR [--all] [KIND...].
 
 Each command that makes a folder of numbered items makes a small one. Of the folder, a file of each kind is removed, cut, or
-changed by a byte, or an unfinished file is left beside it: one of these damages, each in its turn, or with --all each; a run
-is killed several times; and its disk is full. The same command must then make the folder again, with the same bytes. A
+changed by a byte, or an unfinished file is left beside it: one of these damages, each in its turn and two at once, or with
+--all each alone; a run is killed several times; and its disk is full. The same command must then make the folder again, with the same bytes. A
 folder of another run and one with a file of others are refused in one line, and nothing in them is changed.
 """
 
@@ -165,17 +165,33 @@ def copy_of(whole, target):
     shutil.copytree(whole, target, copy_function=shutil.copyfile, symlinks=True)
 
 
-def try_damage(folder, whole, wanted, damage, name):
-    target = folder.place(f"{damage.__name__}_{name.replace('/', '_')}")
+def try_damages(folder, whole, wanted, damages):
+    """Does each of the damages, (what is done, to which file or folder), and runs the command once."""
+    words = ", ".join(f"{damage.__name__} {name}" for damage, name in damages)
+    target = folder.place(words.replace("/", "_"))
     copy_of(whole, target)
-    damage(target / name)
-    if name in folder.owners and damage is not leave_unfinished:
+    for damage, name in damages:
+        damage(target / name)
+    if any(is_anothers(folder, damage, name) for damage, name in damages):
         before = hashes_of(target)
         said = refusal_fault(folder, folder.run(target), target, before)
     else:
         said = mended_fault(folder, target, wanted)
     shutil.rmtree(target.parent)
-    return said and f"{folder.kind}: {damage.__name__} {name}: {said}"
+    return said and f"{folder.kind}: {words}: {said}"
+
+
+def is_anothers(folder, damage, name):
+    """Whether the damage makes the folder another's."""
+    return name in folder.owners and damage is not leave_unfinished
+
+
+def in_twos(folder, damages):
+    """The damages of which two are mended at once; what makes the folder another's stands alone."""
+    alone = [[damage] for damage in damages if is_anothers(folder, *damage)]
+    others = [damage for damage in damages if not is_anothers(folder, *damage)]
+    half = (len(others) + 1) // 2
+    return alone + [others[i::half] for i in range(half)]
 
 
 def try_stranger(folder, whole, within):
@@ -240,11 +256,12 @@ def check(folder, turn, pool, has_all):
     if said:
         raise RuntimeError(f"{folder.kind}: run again: {said}")
     named = [name for name in one_of_each(wanted) if (whole / name).stat().st_size > 0]
-    trials = [(damage, name) for i, name in enumerate(named, turn)
-              for damage in (DAMAGES if has_all else [DAMAGES[i % len(DAMAGES)]])]
+    damages = [(damage, name) for i, name in enumerate(named, turn)
+               for damage in (DAMAGES if has_all else [DAMAGES[i % len(DAMAGES)]])]
+    trials = [[damage] for damage in damages] if has_all else in_twos(folder, damages)
     folders = {str(parent) for name in wanted for parent in pathlib.PurePath(name).parents} - {"."}
-    trials += [(remove_folder, name) for name in one_of_each(sorted(folders))]
-    results = [pool.submit(try_damage, folder, whole, wanted, damage, name) for damage, name in trials]
+    trials += [[(remove_folder, name)] for name in one_of_each(sorted(folders))]
+    results = [pool.submit(try_damages, folder, whole, wanted, trial) for trial in trials]
     num_bytes = sum((whole / name).stat().st_size for name in wanted)
     shares = (0.2, 0.5, 0.8)
     results.append(pool.submit(try_full_disk, folder, wanted, num_bytes, shares if has_all else [shares[turn % 3]]))
