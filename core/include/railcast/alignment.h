@@ -51,6 +51,7 @@ struct AlignmentElement {
   bool operator==(const AlignmentElement&) const = default;
 };
 
+/// A line given by its elements, which follow one another from chainage 0.
 struct AlignmentElementsSpec {
   std::vector<AlignmentElement> elements;
 
@@ -81,26 +82,26 @@ struct ChainageValue {
 struct MapSpec {
   /// Easting and northing in the map's projection of the world's origin.
   std::array<double, 2> origin_m{0, 0};
-  /// Middle (WGS 84) of the transverse Mercator with scale 1 that takes longitudes and latitudes to
-  /// metres (core/rail/line/map_place.h).
+  /// Central point (WGS 84) of the transverse Mercator projection with scale 1 that turns
+  /// longitudes and latitudes into metres (core/rail/line/map_place.h).
   double longitude_deg{};
   double latitude_deg{};
-  /// Empty if that is the map's projection. Otherwise the world's x and y are polynomials of its
-  /// easting and northing in units of kUnit_m: the coefficients (x, y) of 1, e, n, e^2, e n, n^2,
-  /// e^3 and so on.
+  /// Empty if that transverse Mercator is the map's projection. Otherwise the world's x and y are
+  /// polynomials of its easting e and northing n in units of kUnit_m, with the coefficients (x, y)
+  /// of 1, e, n, e^2, e n, n^2, e^3 and so on.
   std::vector<std::array<double, 2>> coefficients_m;
   static constexpr double kUnit_m = 1e5;
 
   bool operator==(const MapSpec&) const = default;
 };
 
-/// Geometry of the line's axis: plan, gradients, and the speed limits that determine the cant.
-/// The gauge that is most common, of which all turnouts and wagons are, and the limits of what a
-/// line may have: from field railways to broader than India's 1676 mm.
+/// Gauges: the standard one, which all turnouts and wagons have, and the limits of what a line may
+/// have, from field railways to broader than India's 1676 mm.
 inline constexpr double kStandardGauge_mm = 1435.0;
 inline constexpr double kNarrowestGauge_mm = 600.0;
 inline constexpr double kWidestGauge_mm = 1700.0;
 
+/// Geometry of the line's axis: plan, gradients, and the speed limits that determine the cant.
 /// Chainage is measured in plan.
 struct AlignmentSpec {
   std::variant<AlignmentSectionsSpec, AlignmentElementsSpec, AlignmentSplineSpec> course;
@@ -113,7 +114,7 @@ struct AlignmentSpec {
   /// axis.
   double heading_deg = 0.0;
 
-  std::vector<ChainageValue> gradients_permil;   ///< Empty = level.
+  std::vector<ChainageValue> gradients_permil;   ///< Positive = rising; empty = level.
   std::vector<ChainageValue> speed_limits_kmph;  ///< Empty = no cant by the rule.
   /// Surveyed cant, linear between the entries: the height of the right above the left rail. It
   /// takes the place of the rule; empty = by the rule.
@@ -126,8 +127,8 @@ struct AlignmentSpec {
   /// Length (at most) of the parabolas that replace jumps in gradient.
   double gradient_smoothing_m = 40.0;
 
-  /// Cant that was not surveyed follows the rule clamp(11.8 v^2 / R - deficiency, 0, max), averaged
-  /// over the ramp length.
+  /// Cant that was not surveyed follows the rule clamp(11.8 v^2 / R - deficiency, 0, max) in mm, v
+  /// in km/h and R in m, averaged over the ramp length.
   double cant_deficiency_mm = 60.0;
   double cant_max_mm = 150.0;
   double cant_ramp_m = 60.0;

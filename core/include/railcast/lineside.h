@@ -55,7 +55,7 @@ enum class BoardKind {
   kSpeed,              ///< A rectangle, as where a speed begins (Lf 7).
   kSpeedAnnouncement,  ///< A triangle on its tip, as ahead of it (Lf 6).
   kKilometre,          ///< A low rectangle.
-  kFoulingPoint,       ///< A painted post between tracks (Ra 12); the others retroreflect.
+  kFoulingPoint,       ///< A painted post between tracks (Ra 12); all other boards retroreflect.
 };
 template <>
 inline constexpr auto kEnumNames<BoardKind> =
@@ -139,16 +139,16 @@ struct TimedValue {
   bool operator==(const TimedValue&) const = default;
 };
 
-/// A road that crosses all tracks at a right angle, at the height of their rails, in traffic that
+/// A road that crosses all tracks at a right angle, at the height of their rails. Road traffic
 /// keeps to the right.
 struct LevelCrossingSpec : PointSpec {
   double road_width_m = 6.0;                      ///< Along the track.
   double road_length_m = 20.0;                    ///< To either side of the track's axis.
   BarrierState barriers = BarrierState::kClosed;  ///< Half barriers.
-  /// For barriers on the move: 0 = closed to 90 = upright, in place of the state's angle.
+  /// Angle of barriers that stand half way, instead of `barriers`: 0 = closed, 90 = upright.
   std::optional<double> barrier_angle_deg;
-  /// As above, for barriers that move while the scenario runs: linear between the entries, constant
-  /// before the first and after the last. Their booms are objects of the world then.
+  /// Angles by time, of barriers that move while the scenario runs: linear between the entries,
+  /// constant before the first and after the last. The booms are then objects of the world.
   std::vector<TimedValue> barrier_angles_deg{};
   bool has_signs = true;  ///< Whether there are St Andrew's crosses with lamps.
 

@@ -105,8 +105,7 @@ struct MeshPartSpec {
 /// pivots, and couples to others at both ends of its length.
 struct RailVehicleSpec {
   double pivot_distance_m{};  ///< Between the pivots of the two bogies.
-  std::string bogie;  ///< Mesh file of either bogie; the origin is in its pivot's axis, at top of
-                      ///< rail.
+  std::string bogie;  ///< Mesh file of either bogie; its origin is on the pivot, at top of rail.
 
   bool operator==(const RailVehicleSpec&) const = default;
 };
@@ -127,13 +126,13 @@ struct OsdarSpec {
 struct ModelSpec {
   std::string name;   ///< The `type` of objects and of trains' vehicles.
   std::string file;   ///< Its mesh, of any format that objects of type mesh may have.
-  std::string label;  ///< Of the whole, and of parts without one of their own.
+  std::string label;  ///< Label of the whole, and of parts that have none of their own.
   /// Length, width, and height above the origin. The mesh must have them within 2 cm, or 1 % where
   /// that is more. Vehicles couple at the ends of their length.
   std::array<double, 3> size_m{};
   std::vector<MeshPartSpec> parts{};
-  std::optional<std::string>
-      material{};  ///< Of parts for which neither `parts` nor a word says it.
+  /// Material of parts that get none by `parts` or by a word in their names (docs/things.md).
+  std::optional<std::string> material{};
   std::optional<UpAxis> up{};
   std::optional<double> unit_m{};
   MeshOrigin origin = MeshOrigin::kFile;
@@ -152,18 +151,18 @@ struct ObjectType {
 
   std::string_view shape = "box";            ///< Counts only without a model.
   std::shared_ptr<const ModelSpec> model{};  ///< Null for the four shapes.
-  std::optional<std::size_t> entry{};  ///< Its place in the scenario's table; absent: shipped.
+  std::optional<std::size_t> entry{};        ///< Index in the scenario's table; absent: shipped.
 };
 inline const ObjectType ObjectType::kBox{.shape = "box"};
 inline const ObjectType ObjectType::kPole{.shape = "pole"};
 inline const ObjectType ObjectType::kPerson{.shape = "person"};
 inline const ObjectType ObjectType::kMesh{.shape = "mesh"};
 
-/// What scenarios call it.
+/// The name of a type in scenarios.
 [[nodiscard]] inline std::string_view NameOf(const ObjectType& type) {
   return type.model ? std::string_view(type.model->name) : type.shape;
 }
-/// A name means one type in a scenario.
+/// Types are equal if their names are: within a scenario, a name stands for one type.
 [[nodiscard]] inline bool operator==(const ObjectType& a, const ObjectType& b) {
   return NameOf(a) == NameOf(b);
 }
@@ -207,7 +206,7 @@ inline constexpr auto kEnumNames<Luggage> =
 
 /// How a person looks.
 struct PersonSpec {
-  Posture posture = Posture::kWalking;  ///< Limbs of a walking person move while it does.
+  Posture posture = Posture::kWalking;  ///< Limbs of a walking person move while the person does.
   Physique physique = Physique::kMan;
   Clothing clothing = Clothing::kPlain;
   Luggage luggage = Luggage::kNone;
@@ -245,12 +244,12 @@ struct ObjectSpec {
   MeshOrigin origin = MeshOrigin::kFoot;  ///< Meshes only.
   std::vector<MeshPartSpec> parts{};      ///< Meshes only.
   std::optional<Follow> follow{};         ///< Absent: rail vehicles track, all others upright.
-  /// The object leans: first about its x axis to the right, then about its y axis forwards. Its
-  /// foot is then the lowest point of the leaning object.
+  /// Lean of the object: first about its x axis, positive to the right, then about its y axis,
+  /// positive forwards. The object's foot is then its lowest point as it leans.
   double roll_deg{};
   double pitch_deg{};
   std::optional<PersonSpec> person{};  ///< Persons only; absent = all defaults.
-  /// Meshes only: how far their simplified surfaces may be from those of the file; 0 = as they are.
+  /// Meshes only: how far simplified surfaces may be from those of the file; 0 = not simplified.
   double tolerance_mm{};
   /// Instead of s_m and d_m: easting and northing of the alignment's map (MapSpec), or x and y of
   /// the world if that has none.
@@ -259,8 +258,8 @@ struct ObjectSpec {
   /// Instead of s_m and d_m: WGS 84; needs the alignment's map.
   std::optional<double> longitude_deg{};
   std::optional<double> latitude_deg{};
-  /// In plans of railcast-generate insert only: s_m counts ahead from where the vehicle is in this
-  /// frame of the recording; x_m and y_m are in the axes of the sensor there.
+  /// In plans of railcast-generate insert only: a frame of the recording. s_m counts ahead from
+  /// where the vehicle is in this frame; x_m and y_m are in the sensor's axes in this frame.
   std::optional<std::uint32_t> frame{};
 
   bool operator==(const ObjectSpec&) const = default;

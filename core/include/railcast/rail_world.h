@@ -25,16 +25,16 @@ struct WorldDraft;
 /// How the sensor's vehicle runs along its route at an instant, and how it got there.
 struct VehicleTravel {
   double s_m{};                ///< Chainage of its origin.
-  double speed_mps{};          ///< By which the chainage changes; >= 0, also in reverse.
+  double speed_mps{};          ///< Rate of change of the chainage; >= 0, also in reverse.
   double acceleration_mps2{};  ///< In the direction of travel.
   double speeding_up_m{};      ///< Change of chainage since time 0 while the speed rose; >= 0.
   double slowing_down_m{};     ///< Change of chainage since time 0 while the speed fell; >= 0.
   bool runs_back{};            ///< Whether the chainage falls.
 };
 
-/// What worlds that are made one after another have in common, made once: lines whose specs differ
-/// in objects, trains and plants alone, and the models of plants. Keeps those used last.
-/// Thread-safe.
+/// A cache of what worlds made one after another have in common: lines, which are shared by worlds
+/// whose specs differ only in objects, trains and plants, and the models of plants. Keeps those
+/// used last. Thread-safe.
 class SharedLines {
  public:
   SharedLines();
@@ -46,17 +46,16 @@ class SharedLines {
   std::unique_ptr<Parts> parts_;
 };
 
-/// The railway world of a scenario. The line is divided into chunks of kChunkLength_m each, from
-/// chainage 0.
+/// The railway world of a scenario, which MakeWorld() makes. The line is divided into chunks of
+/// kChunkLength_m each, from chainage 0.
 ///
 /// Objects have instance ids 1, 2, ... in the order of the spec, followed by the vehicles of the
 /// trains, one train after the other, each from front to rear. After them come those of the
 /// sensor's own train: "ego" carries the sensor, and the others are "ego/1", "ego/2", ... by their
 /// places; ego boxes, if there are any, form a single "ego" instead. Moving barriers are two more
-/// for each level crossing, "NAME/right" and "NAME/left" after the side of the track from which one
-/// drives towards them.
-/// Masts are numbered from kFirstMastInstance. Moving objects continue straight and level beyond
-/// the ends of the line.
+/// for each level crossing, "NAME/right" and "NAME/left" after the side of the track from which
+/// road traffic approaches them. Masts have ids from 20,000 on (kFirstMastInstance). Moving
+/// objects continue straight and level beyond the ends of the line.
 ///
 /// Immutable. WithVehicleSpeed(), WithObject() and WithoutObject() return a modified world that
 /// shares everything else, including its chunks, with this one. Worlds made with the same
@@ -67,7 +66,7 @@ class RailWorld final : public World {
 
   /// @throws InputError if the specs contradict each other or a mesh cannot be read. Each line
   ///   reads "/world/objects/3/track: rule (got value)", with pointers into the scenario.
-  /// @param shared Files of the same name are taken to be the same. Null: the world is alone.
+  /// @param shared Cache to use; it takes files of the same name to be unchanged. Null: none.
   RailWorld(const WorldSpec& world,
             const VehicleSpec& vehicle,
             const LabelTable& labels,
@@ -76,7 +75,7 @@ class RailWorld final : public World {
             SharedLines* shared = nullptr);
   ~RailWorld() override;
 
-  /// Makes the plants of which all chunks are planted, as the first BuildChunk() would otherwise.
+  /// Makes the models of the plants now, which the first BuildChunk() would otherwise do.
   void PreparePlants() const;
 
   /// Returns this world as it is from `from_ns` on if the vehicle changes its speed: it accelerates
@@ -115,8 +114,8 @@ class RailWorld final : public World {
   [[nodiscard]] double VehicleSpeed_mps(std::int64_t time_ns) const;
   [[nodiscard]] VehicleTravel VehicleTravelAt(std::int64_t time_ns) const;
   /// The motion of the vehicle frame, with cant and ride. Speed and acceleration along the track
-  /// are those of the motion's stretch that the time is in, exact also where one begins; all else
-  /// is differentiated (core/rail/motion/track_path.h).
+  /// are exact, and where the acceleration jumps, they are those after the jump; all else is
+  /// differentiated numerically (core/rail/motion/track_path.h).
   [[nodiscard]] RigidMotion VehicleMotion(std::int64_t time_ns) const;
   /// Chainage of the vehicle's origin along its route; may lie beyond the ends of the route.
   [[nodiscard]] double VehicleChainage_m(std::int64_t time_ns) const;
@@ -135,10 +134,10 @@ class RailWorld final : public World {
   [[nodiscard]] Chunk BuildChunk(int chunk) const override;
   [[nodiscard]] std::vector<CoarserSurfaces> CoarserSurfacesOf(int chunk) const override;
   [[nodiscard]] Chunk BuildCoarserChunk(int chunk, std::size_t level) const override;
-  /// What chunks are made of but for their plants: worlds with the same object have the same
-  /// BuildBareChunk(). Null if no world before has the same: most such lines come only once.
+  /// Identity of the line without plants: worlds with the same one have the same BuildBareChunk().
+  /// Null if no earlier world had this line, which is then likely to occur only once.
   [[nodiscard]] std::shared_ptr<const void> bare_line() const;
-  /// A chunk with all of its placements but PlantsOf(), which come last. @param level 0 = finest.
+  /// A chunk as BuildCoarserChunk() makes it, but without PlantsOf(). @param level 0 = finest.
   [[nodiscard]] Chunk BuildBareChunk(int chunk, std::size_t level) const;
   [[nodiscard]] std::vector<Placement> PlantsOf(int chunk) const;
   [[nodiscard]] const std::vector<SceneObject>& objects() const override;

@@ -43,9 +43,8 @@ class ScenarioSources {
   /// The place of a value as "file: /pointer", or only the pointer if the file is unknown.
   [[nodiscard]] std::string Place(std::string_view resolved_pointer) const;
 
-  /// Names the place of a builder's fault as the user knows it. Builders give a place
-  /// as a pointer relative to their spec, which stands at `resolved_pointer`, or as the absolute
-  /// name of a file.
+  /// Names the place of a builder's fault as the user knows it. Builders give a place as a pointer
+  /// relative to their spec, which stands at `resolved_pointer`, or as the absolute name of a file.
   [[nodiscard]] Fault Locate(const Fault& fault, std::string_view resolved_pointer) const;
 
   /// Always true: two scenarios with the same values are equal, whichever files they came from.
@@ -65,9 +64,9 @@ class ScenarioSources {
   std::vector<File> files_;
 };
 
-/// By how much a sensor is not where its mount says: its true pose in the axes of the nominal one.
-/// Rays leave from the true pose. Whatever places points or says where the sensor is, uses the
-/// nominal one, as a vehicle does that does not know its error.
+/// Mount error of a sensor: its true pose relative to the nominal one, in the nominal sensor's
+/// axes. Rays leave from the true pose. Points in vehicle or world axes and reported poses use the
+/// nominal one, as on a vehicle that does not know the error.
 struct MountErrorSpec {
   std::array<double, 3> position_m{};
   double yaw_deg = 0.0;
@@ -163,8 +162,8 @@ struct SensorInterface {
   bool operator==(const SensorInterface&) const = default;
 };
 
-/// The room that readers of ROS 2 have in the buffers of their sockets: Linux's default of 208 KiB,
-/// or enough for a whole frame.
+/// The size of the socket buffers of all subscribers in ROS 2: Linux's default of 208 KiB, or 1 MiB
+/// or more, enough for a whole frame.
 enum class ReceiveBuffers { kUsual, kLarge };
 template <>
 inline constexpr auto kEnumNames<ReceiveBuffers> = std::to_array<EnumName<ReceiveBuffers>>(
@@ -175,7 +174,7 @@ struct Ros2Spec {
   std::optional<std::uint32_t> domain;  ///< Absent: as ROS_DOMAIN_ID says, or 0.
   std::string interface;                ///< Name or address; empty = loopback.
   ReceiveBuffers receive_buffers = ReceiveBuffers::kUsual;
-  double deceleration_mps2 = 0.5;  ///< Of the vehicle at commands of ROS 2, which name none.
+  double deceleration_mps2 = 0.5;  ///< Of the vehicle; ROS 2's commands name only a speed.
 
   bool operator==(const Ros2Spec&) const = default;
 };
@@ -255,7 +254,7 @@ class RailWorld;
 
 /// The transform from the sensor frame to the vehicle frame of a mount.
 [[nodiscard]] Transform VehicleFromSensor(const MountSpec& mount);
-/// The transform from the sensor's true frame to the one that its mount says.
+/// The transform from the true sensor frame to the nominal one, which the mount gives.
 [[nodiscard]] Transform NominalFromTrue(const MountErrorSpec& error);
 
 /// The transform from the camera's optical axes (x right, y down, z forward) to the vehicle frame.
@@ -263,8 +262,7 @@ class RailWorld;
 /// @pre The scenario has a camera, and one sensor (PickSensor()).
 [[nodiscard]] Transform VehicleFromCamera(const ScenarioSpec& spec);
 
-/// How many frames of the scenario's sensor follow each other from one image of its camera to the
-/// next: frame k has an image if k is a multiple of it.
+/// Number of frames of the sensor per image of the camera: frame k has an image if this divides k.
 /// @pre The scenario has a camera, and one sensor (PickSensor()).
 [[nodiscard]] std::uint32_t FramesPerImage(const ScenarioSpec& spec);
 
@@ -273,7 +271,7 @@ class RailWorld;
 [[nodiscard]] std::optional<Camera> MakeCamera(const ScenarioSpec& spec);
 
 /// Makes the scenario's motion sensors; absent if it has none.
-/// @param world The scenario's, as it is at time 0.
+/// @param world The scenario's world, as it is at time 0.
 [[nodiscard]] std::optional<MotionSensors> MakeMotionSensors(const ScenarioSpec& spec,
                                                              const RailWorld& world);
 
@@ -286,7 +284,7 @@ class RailWorld;
 ///   after the scenario was read.
 [[nodiscard]] EffectSet EffectsOf(const ScenarioSpec& spec);
 
-/// Whether anything that the scenario names is of a material with `height_rms_um`.
+/// Whether anything that the scenario names has a material with `height_rms_um`.
 [[nodiscard]] bool HasMirrors(const ScenarioSpec& spec);
 
 /// The key of a sensor's own draws: the scenario's seed for a sensor without a name, else Philox's
@@ -311,8 +309,8 @@ class RailWorld;
 [[nodiscard]] ScenarioSpec PickSensor(const ScenarioSpec& spec,
                                       const std::optional<std::string>& name);
 
-/// Changes the weather of a simulation of the scenario.
-/// @throws InputError if the new weather needs something that the scenario lacks.
+/// Sets the weather in `spec`, the spec of a simulator of the scenario, for Simulator::Use().
+/// @throws InputError if the weather needs a label or a material that the scenario lacks.
 void UseWeather(const ScenarioSpec& scenario, const WeatherSpec& weather, SimulatorSpec& spec);
 
 /// Lists every fault of a scenario: the faults of its files and those that only building its scan
@@ -324,7 +322,6 @@ void UseWeather(const ScenarioSpec& scenario, const WeatherSpec& weather, Simula
 [[nodiscard]] std::shared_ptr<const RailWorld> MakeWorld(const ScenarioSpec& spec);
 
 /// Builds the whole simulation of a scenario.
-/// @throws InputError with the faults that CheckScenario() lists.
 /// @param num_threads 0 = all cores.
 /// @param isa Embree instruction set to force ("sse4.2", "avx2", "avx512"); empty = the best
 ///   available.

@@ -80,8 +80,8 @@ struct FenceSpec : SideStretchSpec {
   bool operator==(const FenceSpec&) const = default;
 };
 
-/// A wall that holds back the ground beside it, which is as high as its top. Its face leans away
-/// from the track by 1:10.
+/// A wall that holds back the ground behind it, which is as high as the wall's top. Its face leans
+/// away from the track by 1:10.
 struct RetainingWallSpec : SideStretchSpec {
   double distance_m = 4.0;  ///< Of its face from the track's axis, at top of rail.
   double height_m = 2.0;    ///< Above top of rail.
@@ -98,9 +98,9 @@ struct CableTroughSpec : SideStretchSpec {
   bool operator==(const CableTroughSpec&) const = default;
 };
 
-/// A tunnel around its track and the next one, where that is at most 7.4 m away.
+/// A tunnel around its track and the neighbouring one, if that is at most 7.4 m away.
 struct TunnelSpec : StretchSpec {
-  std::optional<double> radius_m;  ///< Of its vault, inside; absent = as the tracks need.
+  std::optional<double> radius_m;  ///< Inner radius of its vault; absent = as the tracks need.
   bool has_portals = true;         ///< Whether a wall closes the hill about either mouth.
   double niche_spacing_m = 25.0;   ///< On both sides; 0 = none.
   bool has_handrail = true;
@@ -179,7 +179,7 @@ using StructureSpec = std::variant<PlatformSpec,
                                    LevelCrossingSpec,
                                    BuildingSpec>;
 
-/// The part that all structures along a stretch have in common.
+/// The part that all structures along a stretch have in common; null for any other structure.
 [[nodiscard]] inline const StretchSpec* StretchOf(const StructureSpec& structure) {
   return std::visit(
       []<class T>(const T& spec) -> const StretchSpec* {
@@ -189,7 +189,7 @@ using StructureSpec = std::variant<PlatformSpec,
       structure);
 }
 
-/// The part that all structures at one place have in common.
+/// The part that all structures at one place have in common; null for any other structure.
 [[nodiscard]] inline const PointSpec* PointOf(const StructureSpec& structure) {
   return std::visit(
       []<class T>(const T& spec) -> const PointSpec* {

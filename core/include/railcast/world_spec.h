@@ -22,8 +22,7 @@ template <>
 inline constexpr auto kEnumNames<SleeperType> = std::to_array<EnumName<SleeperType>>(
     {{SleeperType::kConcrete, "concrete"}, {SleeperType::kWood, "wood"}});
 
-/// Types of turnout by the angle and the radius of their diverging track
-/// (network/turnout_place.h).
+/// Types of turnout by the slope 1:n and the radius (m) of the diverging track (docs/world.md).
 enum class TurnoutType { k9_190, k9_300, k12_500, k14_760 };
 template <>
 inline constexpr auto kEnumNames<TurnoutType> =
@@ -41,8 +40,8 @@ inline constexpr auto kEnumNames<TurnoutPosition> = std::to_array<EnumName<Turno
 /// A turnout at which a track branches off another one.
 struct TurnoutSpec {
   std::string track;  ///< The track in which it lies, whose way through it is the straight one.
-  /// Chainage where it begins: the end of its blades' tips (the Weichenanfang). May be absent at
-  /// the end of a crossover between parallel tracks, where it follows.
+  /// Chainage where it begins: at the tips of its blades (the Weichenanfang). May be absent at the
+  /// end of a crossover between parallel tracks, where it follows from the crossover's beginning.
   std::optional<double> s_m{};
   TurnoutType turnout{};
   /// Side of `track` to which the branch leaves; absent = where the branch's offset lies.
@@ -58,13 +57,13 @@ struct TurnoutSpec {
 ///
 /// The offset is constant, or changes with chainage, or follows from elements in the plane of
 /// chainage and offset; with a turnout at its beginning or end the track joins another one there
-/// (network/network.h has the rules). With turnouts at both ends and neither offsets nor elements
-/// it is a crossover.
+/// (core/rail/network/network.h has the rules). With turnouts at both ends and neither offsets nor
+/// elements it is a crossover.
 struct TrackSpec {
   std::string name = "main";
-  std::optional<double> offset_m{};        ///< Lateral, left positive; absent = 0.
-  std::vector<ChainageValue> offsets_m{};  ///< Instead of offset_m: offsets by chainage.
-  std::vector<AlignmentElement> elements{};
+  std::optional<double> offset_m{};          ///< Lateral, left positive; absent = 0.
+  std::vector<ChainageValue> offsets_m{};    ///< Instead of offset_m: offsets by chainage.
+  std::vector<AlignmentElement> elements{};  ///< In the plane of chainage and offset.
   double heading_deg = 0.0;         ///< Of the first element, against the alignment; left positive.
   double start_s_m = 0.0;           ///< First chainage of the track, unless a turnout gives it.
   std::optional<double> end_s_m{};  ///< Last chainage of the track; absent = end of the line.
@@ -78,14 +77,14 @@ struct TrackSpec {
 
 inline constexpr std::uint32_t kMostYardTracks = 100;
 
-/// A ladder of tracks that run parallel to the one that they branch off (network/network_draft.h).
+/// A ladder of tracks parallel to the one that they branch off (core/rail/network/network_draft.h).
 struct YardSpec {
   std::string name;
   /// The turnout from which the lead runs on at its angle; all tracks of the yard branch off the
   /// lead in turnouts of the same type.
   TurnoutSpec begin;
   std::uint32_t num_tracks = 1;  ///< From 1 to kMostYardTracks.
-  double spacing_m = 4.5;  ///< From the first track where the yard begins, and between its own.
+  double spacing_m = 4.5;        ///< Between its tracks, and from the first to the track it leaves.
   /// Length of each track from its fouling point to its end.
   double usable_length_m = 100.0;
   SleeperType sleeper = SleeperType::kWood;
@@ -96,8 +95,8 @@ struct YardSpec {
 
 /// A place where two tracks cross at the height of their rails, at an angle from 1:20 to 1:4.
 struct DiamondCrossingSpec {
-  std::vector<std::string> tracks;  ///< Names of the two.
-  double s_m{};                     ///< Where their axes cross, within 5 m.
+  std::vector<std::string> tracks;  ///< Names of the two tracks.
+  double s_m{};                     ///< Chainage where their axes cross, to within 5 m.
 
   bool operator==(const DiamondCrossingSpec&) const = default;
 };
@@ -106,10 +105,10 @@ struct DiamondCrossingSpec {
 /// max_span_m, shorter in curves so that the wire stays within the lateral limit between supports.
 struct CatenarySpec {
   bool enabled = true;
-  double contact_height_m = 5.5;
-  double system_height_m = 1.8;
+  double contact_height_m = 5.5;  ///< Of the contact wire above top of rail.
+  double system_height_m = 1.8;   ///< Of the messenger wire above the contact wire at supports.
   double max_span_m = 65.0;
-  double stagger_m = 0.4;
+  double stagger_m = 0.4;  ///< Of the contact wire at supports.
   double dropper_spacing_m = 8.0;
   double mast_distance_m = 3.3;  ///< From the track axis to the face of the mast.
 
@@ -119,8 +118,7 @@ struct CatenarySpec {
 /// Heights of the terrain from a file, an ESRI ASCII grid in metres.
 struct ElevationSpec {
   std::string file;
-  /// The file's coordinates of the world's origin: subtracted from the coordinates and heights of
-  /// the file, they are those of the world.
+  /// The world's origin in the coordinates and heights of the file: world = file - origin_m.
   std::array<double, 3> origin_m{0, 0, 0};
 
   bool operator==(const ElevationSpec&) const = default;
@@ -144,8 +142,8 @@ inline constexpr auto kEnumNames<GroundCover> = std::to_array<EnumName<GroundCov
     {{GroundCover::kSoil, "soil"}, {GroundCover::kFields, "fields"}});
 
 struct TerrainSpec {
-  /// Half width of the ground strip. From the line's tightest radius on, the strip is narrower
-  /// inside tight curves (core/rail/landform/landform.h).
+  /// Half width of the ground strip. If it is at least the line's tightest radius, the strip is
+  /// narrower inside tight curves (core/rail/landform/landform.h).
   double half_width_m = 80.0;
   double roughness_sigma_m = 0.04;      ///< Of the ground beside the ballast.
   double roughness_wavelength_m = 2.0;  ///< Correlation length of the roughness.
@@ -183,7 +181,7 @@ struct VegetationSpec {
   bool grass = true;
   double grass_min_distance_m = 3.6;  ///< From the outermost track axis.
   double grass_max_distance_m = 9.0;
-  double grass_fade_m = 0.0;  ///< Distance beyond over which the grass thins out.
+  double grass_fade_m = 0.0;  ///< Distance beyond the maximum over which the grass thins out.
 
   bool operator==(const VegetationSpec&) const = default;
 };
@@ -203,8 +201,8 @@ inline constexpr auto kEnumNames<PoseSource> =
 /// A recording as a world: what a plan of railcast-generate insert has in place of an alignment.
 struct RecordingWorldSpec {
   std::optional<PoseSource> poses{};         ///< Absent: recorded.
-  std::optional<std::string> poses_file{};   ///< That has the poses instead.
-  std::optional<AlignmentSpec> alignment{};  ///< Absent: the line is the way of the vehicle.
+  std::optional<std::string> poses_file{};   ///< File that has the poses instead.
+  std::optional<AlignmentSpec> alignment{};  ///< Absent: the line is the path of the vehicle.
 
   bool operator==(const RecordingWorldSpec&) const = default;
 };
@@ -217,6 +215,7 @@ struct HalfWidth {
   bool operator==(const HalfWidth&) const = default;
 };
 
+/// Section `world`: the line, its tracks, the land about them, and all that stands or runs there.
 struct WorldSpec {
   /// Seed of the world's geometry: relief, stones, plants. The scenario's own seed drives the
   /// sensor and the weather.
@@ -274,7 +273,7 @@ struct VehicleSpec {
   /// The train that the vehicle is part of, from its front to its rear in the direction of travel.
   /// If `ego_boxes_m` is empty, its shape follows from this.
   std::vector<TrainVehicleSpec> consist{};
-  std::uint32_t sensor_vehicle = 0;  ///< Index of the one in `consist` that carries the sensor.
+  std::uint32_t sensor_vehicle = 0;  ///< Index in `consist` of the one that carries the sensor.
   std::optional<RideSpec> ride{};    ///< Absent: the body does not move on its springs.
   /// Instead of `track`: tracks that turnouts join, one after the other in the direction of travel.
   std::vector<std::string> route{};
