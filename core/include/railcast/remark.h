@@ -11,8 +11,8 @@
 
 namespace railcast {
 
-/// What a reader of other people's files did not take as it stands, although it went on: left out,
-/// bridged, guessed or rounded. RemarkTypes() has their names and texts.
+/// Something in a file that a reader did not take as it stands, although it went on reading: it was
+/// left out, bridged, guessed or rounded. RemarkTypes() has the names and texts of all kinds.
 enum class RemarkKind : std::uint8_t {
   // Captures and packets.
   kPacketsLost,
@@ -65,11 +65,11 @@ enum class RemarkKind : std::uint8_t {
   kClocksDiffer,
 };
 
-/// What is said of a kind of remark.
+/// The name and the texts of a kind of remark.
 struct RemarkType {
   RemarkKind kind{};
   std::string_view name;  ///< Stable, for programs: "packets-damaged".
-  /// Follows the number: "packet with a wrong checksum", "packets with a wrong checksum".
+  /// Text after the number: "packet with a wrong checksum", "packets with a wrong checksum".
   std::string_view one;
   std::string_view several;
   bool is_loss{};  ///< Whether something recorded is missing from what was read.
@@ -81,9 +81,9 @@ struct RemarkType {
 /// A remark of a reader.
 struct Remark {
   RemarkKind kind{};
-  std::string place;         ///< Of the first: "drive.pcap: turn 3". May be empty.
+  std::string place;         ///< Where the first one is: "drive.pcap: turn 3". May be empty.
   std::uint64_t number = 1;  ///< How many packets, points, files, ...
-  std::string detail{};      ///< Of the first, where the kind alone does not say all: a value.
+  std::string detail{};      ///< A value of the first one, if the kind alone does not say all.
 
   [[nodiscard]] const RemarkType& type() const;
   /// "3 packets with a wrong checksum, the first in drive.pcap: turn 3".
@@ -91,12 +91,12 @@ struct Remark {
   bool operator==(const Remark&) const = default;
 };
 
-/// Appends a remark, or adds its number to the one of its kind that is there.
+/// Adds the number of `remark` to the one of the same kind in `remarks`, or appends `remark`.
 void AddRemark(const Remark& remark, std::vector<Remark>& remarks);
 
-/// Collects the remarks of one source: one for each kind, with the sum of the numbers and the first
-/// place, in the order of RemarkKind. Any thread may add to it. What it holds goes to the receiver
-/// of remarks (below) when it is destroyed.
+/// Collects the remarks of one source. List() has one for each kind, with the sum of the numbers
+/// and the first place, in the order of RemarkKind. Thread-safe. When the log is destroyed, that
+/// list goes to the receiver of remarks (SetRemarkReceiver()).
 ///
 ///     RemarkLog log;
 ///     log.Add({.kind = RemarkKind::kPacketsDamaged, .place = "drive.pcap: turn 3"});
@@ -108,9 +108,9 @@ class RemarkLog {
   RemarkLog& operator=(const RemarkLog&) = delete;
   ~RemarkLog();
 
-  /// @param order Of the place: the least of a kind is its first, whichever thread comes first.
-  ///   What is added again for the same order replaces what was there, as when a frame is read
-  ///   twice.
+  /// @param order Where the place is in the source, such as a frame's number: the lowest of a kind
+  ///   is its first place, whichever thread adds it first. A remark replaces an earlier one of the
+  ///   same kind and order, so that a frame that is read twice counts once.
   void Add(const Remark& remark, std::uint64_t order = 0);
   /// Adds what another log of the same source holds.
   void AddAll(const RemarkLog& other);
@@ -124,7 +124,7 @@ class RemarkLog {
 /// Receives the remarks of every RemarkLog that is destroyed, and those of Publish().
 using RemarkReceiver = std::function<void(const Remark&)>;
 
-/// Sets the receiver of this process; there is none at first. To be called before others read.
+/// Sets the receiver of this process; there is none at first. Call it before anything is read.
 void SetRemarkReceiver(RemarkReceiver receiver);
 /// Hands a remark to the receiver, for readers that have no RemarkLog.
 void Publish(const Remark& remark);

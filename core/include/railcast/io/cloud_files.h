@@ -13,7 +13,7 @@
 #include "railcast/frame.h"
 #include "railcast/transform.h"
 
-// What returns clouds of PCL is there for programs that have its headers.
+// Functions that return clouds of PCL can be used by programs that have PCL's headers.
 #if __has_include(<pcl/PCLPointCloud2.h>)
 #include <pcl/PCLPointCloud2.h>
 #else
@@ -27,14 +27,15 @@ namespace railcast {
 struct FrameTrack;
 
 /// Selects which fields of the frame's table (ForEachField() in railcast/frame.h) a file carries,
-/// and which of the points' places relative to the vehicle's track (core/io/cloud/track_fields.h).
-/// They are always stored in the table's order; those of the track come last.
+/// and which values of the points relative to the vehicle's track
+/// (core/io/cloud/track_fields.h). Fields are always stored in the table's order, those of the
+/// track last: FieldSelection("label,x,y,z") stores x, y, z, label.
 class FieldSelection {
  public:
   /// Selects every field that frames of all sensors have.
   FieldSelection();
   /// @param list Names separated by commas, in any order; "all" selects every field of the frame.
-  /// @param has_velocity Whether it is for frames with velocities (Frame::has_velocity).
+  /// @param has_velocity Whether the selection is for frames with velocities (Frame::has_velocity).
   /// @param has_track Whether the track of the frames' vehicle is known, so that the list may name
   ///   its fields.
   /// @throws InputError if a name is unknown (the message names the closest and all valid ones) or
@@ -46,7 +47,7 @@ class FieldSelection {
   /// The names separated by commas, as the second constructor reads them.
   [[nodiscard]] std::string Text() const;
 
-  /// Whether any field is one of the track. Frames can then be stored once their track is set.
+  /// Whether any field is one of the track; if so, call SetTrack() before a frame is stored.
   [[nodiscard]] bool NeedsTrack() const;
   void SetTrack(std::shared_ptr<const FrameTrack> track) { track_ = std::move(track); }
   [[nodiscard]] const FrameTrack* track() const { return track_.get(); }
@@ -120,7 +121,7 @@ struct FrameFileKind {
 struct DatasetLayout {
   std::string_view title;                      ///< Name in messages: "KITTI".
   std::vector<std::string_view> record_files;  ///< Files with one line per frame.
-  /// Makes a frame's lines of `record_files`.
+  /// Makes a frame's lines of `record_files`, in their order.
   /// @param since_first_s Time since the stamp of the run's first frame.
   std::vector<std::string> (*record_lines)(const Transform& first_from_sensor,
                                            double since_first_s);
@@ -202,8 +203,7 @@ void EncodeFrameFiles(const Frame& frame,
 
 /// Reads a PCD file of any encoding and with any fields, whether or not railcast wrote it.
 ///
-/// It gives what pcl::io::loadPCDFile() does of files that are whole. Compressed and ASCII files
-/// give the same cloud as binary ones.
+/// For files that are whole, the cloud is that of pcl::io::loadPCDFile(), for any encoding.
 /// @throws InputError with one line if the file cannot be read or is damaged.
 [[nodiscard]] pcl::PCLPointCloud2 ReadPcd(const std::filesystem::path& file);
 

@@ -8,10 +8,9 @@
 
 namespace railcast {
 
-/// An address of IPv4 or IPv6.
+/// An IPv4 or IPv6 address.
 struct IpAddress {
-  /// In network order; one of IPv4 after ten bytes of 0 and two of 0xFF (RFC 4291,
-  /// 2.5.5.2).
+  /// In network order. IPv4 is mapped: ten bytes 0, two 0xFF, four of IPv4 (RFC 4291, 2.5.5.2).
   std::array<std::uint8_t, 16> bytes{};
   /// Index of the network interface of this machine through which a multicast group or a link-local
   /// address is reached; 0 = none is named, routes decide.
@@ -27,7 +26,7 @@ struct IpAddress {
     return bytes[10] == 0xFF && bytes[11] == 0xFF &&
            std::all_of(bytes.begin(), bytes.begin() + 10, [](auto byte) { return byte == 0; });
   }
-  /// As the constructor takes it.
+  /// The IPv4 address in the host's byte order.
   /// @pre is_ipv4()
   [[nodiscard]] constexpr std::uint32_t ipv4() const {
     return std::uint32_t{bytes[12]} << 24U | std::uint32_t{bytes[13]} << 16U |

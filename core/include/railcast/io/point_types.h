@@ -16,13 +16,13 @@
 #include "railcast/error.h"
 #include "railcast/frame.h"
 
-// Points of frames as types of PCL, so that its programs take our PCD files, frames and streams as
-// clouds of them. The members have the names, units and types of the fields of Frame
-// (railcast/frame.h).
+// PCL point types for the points of frames, so that programs with PCL can take railcast's PCD
+// files, frames and streams as clouds of them. The members have the names, units and types of the
+// fields of Frame (railcast/frame.h).
 //
-// PCL's libraries hold its algorithms for its own types of points. To use them with these, define
-// PCL_NO_PRECOMPILE before including any header of PCL, or copy the points to one of PCL's types
-// with pcl::copyPointCloud().
+// PCL's libraries contain its algorithms for PCL's own point types only. To use them with the types
+// below, define PCL_NO_PRECOMPILE before including any header of PCL, or copy the points to one of
+// PCL's types with pcl::copyPointCloud().
 
 namespace railcast {
 
@@ -85,14 +85,14 @@ POINT_CLOUD_REGISTER_POINT_STRUCT(
 
 namespace railcast {
 
-/// Copies the fields that a type of points shares with frames, one for each call.
+/// Copies the fields of a point type from a frame into a cloud, one field for each call.
 template <typename Point>
 class PointFieldCopy {
  public:
   PointFieldCopy(const Frame& frame, pcl::PointCloud<Point>& cloud)
       : frame_(frame), cloud_(cloud) {}
 
-  /// Of pcl::for_each_type().
+  /// Called by pcl::for_each_type() for each field.
   template <typename Tag>
   void operator()() {
     const std::string_view name = pcl::traits::name<Point, Tag>::value;
@@ -120,10 +120,10 @@ class PointFieldCopy {
   pcl::PointCloud<Point>& cloud_;
 };
 
-/// The frame as an organised cloud of any type of points whose fields frames have: the two above,
-/// pcl::PointXYZ, PointXYZI, PointXYZL. Slots without a point have NaN coordinates. The header has
-/// the stamp in microseconds and the frame's number.
-/// @throws InputError if frames have no such field as a type of points has.
+/// The frame as an organised cloud of any point type all of whose fields frames have: the two
+/// above, pcl::PointXYZ, PointXYZI, PointXYZL. Slots without a point have NaN coordinates. The
+/// header has the stamp in microseconds and the frame's number.
+/// @throws InputError if the point type has a field that frames lack or have in another type.
 template <typename Point>
 [[nodiscard]] pcl::PointCloud<Point> ToPointCloud(const Frame& frame) {
   pcl::PointCloud<Point> cloud(frame.width(), frame.rows);

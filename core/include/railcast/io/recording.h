@@ -25,17 +25,16 @@ struct RecordedObject {
   std::string type;
   std::string label;
   std::uint32_t instance{};
-  Vector3 size_m = Vector3::Zero();
+  Vector3 size_m = Vector3::Zero();  ///< Length, width and height of the bounding box.
   /// Pose of the bounding box (centre and axes) at the stamp.
   Transform sensor_from_box = Transform::Identity();
   Vector3 velocity_world_mps = Vector3::Zero();  ///< Velocity of the box's centre.
-  std::uint32_t points{};
-  /// Mean time of those points since the stamp; nothing without points, and in frames of older
-  /// programs.
+  std::uint32_t points{};                        ///< Slots with a point on the object.
+  /// Mean time of those points since the stamp; absent without points and in older recordings.
   std::optional<std::uint32_t> points_time_ns{};
-  std::uint32_t firings_visible{};
+  std::uint32_t firings_visible{};  ///< ObjectView::firings_visible; firings_alone likewise.
   std::uint32_t firings_alone{};
-  std::optional<double> occlusion{};  ///< 0 to 1; absent where no firing would meet it even alone.
+  std::optional<double> occlusion{};  ///< ObjectView::occlusion(), 0 to 1.
 };
 
 /// A per-point value of a foreign cloud that has no counterpart in Frame, such as `curvature`.
@@ -47,7 +46,7 @@ struct ForeignField {
 /// The slot of a point that was left out of a frame.
 inline constexpr std::uint32_t kNoSlot = std::numeric_limits<std::uint32_t>::max();
 
-/// Where a firing goes and where it leaves, in the sensor's axes at its time.
+/// Direction and origin of a firing's beam, in the sensor's axes at the time of the firing.
 struct RecordedBeam {
   Vector3 direction = Vector3::UnitX();  ///< Unit vector.
   Vector3 origin_m = Vector3::Zero();
@@ -57,7 +56,7 @@ struct RecordedBeam {
 enum class PointAxes : std::uint8_t {
   kSensorAtFiring,  ///< The sensor's at the time of each firing, as it measures.
   kSensorAtStamp,   ///< The sensor's at the stamp: its motion is undone, as in KITTI's format.
-  kOther,           ///< Others, or left-handed ones. No recording has them.
+  kOther,           ///< Others, or left-handed ones; never those of a recording that was opened.
 };
 
 /// One frame of a recording, whether or not railcast made it.
@@ -77,25 +76,25 @@ struct RecordedFrame {
   bool has_pose{};  ///< Whether world_from_sensor is known.
   PointAxes axes = PointAxes::kSensorAtFiring;
   std::vector<RecordedObject> objects;  ///< railcast sequences only.
-  /// What its numerical error rests on, the JSON of `certificate` in frames.jsonl; empty where the
-  /// frame is not certified.
+  /// What the estimate of the frame's numerical error rests on (docs/certificate.md): the JSON of
+  /// `certificate` in frames.jsonl; empty if the frame is not certified.
   std::string certificate_json{};
   /// Fields of the file that have no counterpart in `frame`, in the file's order, at most 64.
   /// Colours are left out.
   std::vector<ForeignField> foreign{};
-  /// Offset subtracted from the stored positions so that float32 can represent those of `frame`:
-  /// position + origin_m = stored position. It is 0 unless positions were stored as float64 far
-  /// from 0, as in a national grid; range_m is then still the distance from the stored 0. Frames of
-  /// one recording may have different origins.
+  /// Offset that was subtracted from the stored positions, so that float32 can represent those of
+  /// `frame`: position + origin_m = stored position. It is 0 unless positions were stored as
+  /// float64 far from 0, as in a national grid; range_m is then still the distance from the 0 of
+  /// the stored positions. Frames of one recording may have different origins.
   Vector3 origin_m = Vector3::Zero();
   /// For each point of the file or message, in its order, its slot or kNoSlot. Empty for captures.
   std::vector<std::uint32_t> slot_of_entry{};
   /// Why the frame is not a grid, as a clause: "it has no ...". Empty if it is one.
   std::string why_no_grid{};
-  /// Captures only, null for others: the beam of a cell as its packet and the sensor's angles state
-  /// it, whether or not it returned anything.
+  /// Captures only, null for others: the beam of a cell, from its packet and the sensor's table of
+  /// angles, whether or not anything returned.
   std::function<RecordedBeam(std::uint32_t row, std::uint32_t column)> beam_of{};
-  /// What the reader of this frame's file or message has to say; OpenRecording() moves it to
+  /// Remarks of the reader of this frame's file or message; OpenRecording() moves them to
   /// RecordingInfo::remarks.
   std::vector<Remark> remarks{};
 
@@ -105,10 +104,10 @@ struct RecordedFrame {
 /// Provenance of a railcast sequence.
 struct SequenceOrigin {
   std::string version;  ///< Version of railcast.
-  std::string embree;   ///< Version of Embree; empty in sequences of older programs.
-  std::string isa;      ///< Instruction set used for tracing; empty in sequences of older programs.
+  std::string embree;   ///< Version of Embree; empty in sequences of older versions.
+  std::string isa;      ///< Instruction set used for tracing; empty in sequences of older versions.
   std::string scenario_hash;  ///< Hash of the scenario that was run.
-  /// Hash of all files; empty if unfinished or written by an older program.
+  /// Hash of all files; empty if unfinished or written by an older version.
   std::string data_hash;
   bool is_finished{};
   bool has_commands{};  ///< Whether commands changed the scenario during the run.
@@ -130,8 +129,8 @@ struct RecordingInfo {
   std::optional<ScenarioSpec> scenario;  ///< railcast sequences only, as resolved.
   /// railcast sequences only, including those in KITTI's format.
   std::optional<SequenceOrigin> origin;
-  /// What was left out, bridged, guessed or rounded in what was read so far; all of it once Next()
-  /// has returned nothing and the frames have been read. Shared by all copies.
+  /// What the readers left out, bridged, guessed or rounded so far; complete once Next() has
+  /// returned nothing and all frames have been read. Shared by all copies.
   std::shared_ptr<RemarkLog> remarks = std::make_shared<RemarkLog>();
 };
 
@@ -166,7 +165,7 @@ class Recording {
 /// Whether the source is a bag of ROS 2, which may have several topics.
 [[nodiscard]] bool IsBagOfTopics(const std::filesystem::path& source);
 
-/// Returns what OpenRecording() takes for one topic of a bag: "run.mcap:/lidar/points".
+/// The path by which OpenRecording() opens one topic of a bag: "run.mcap:/lidar/points".
 [[nodiscard]] std::filesystem::path TopicOfBag(const std::filesystem::path& bag,
                                                const std::string& topic);
 

@@ -144,7 +144,7 @@ struct StreamCounts {
   std::uint64_t duplicate_packets{};
   /// Packets of frames that had already been delivered without them.
   std::uint64_t late_packets{};
-  /// Overtaken by packets that were sent later, but still in time.
+  /// Packets that were overtaken by others sent later, but arrived in time.
   std::uint64_t reordered_packets{};
   /// Packets missing from incomplete frames; those of missing frames are unknown.
   std::uint64_t lost_packets{};

@@ -22,8 +22,8 @@ namespace railcast {
 /// - `void(const std::shared_ptr<const ReceivedFrame>&)`
 /// - `void(const std::shared_ptr<const pcl::PCLPointCloud2>&)`: every field that was sent
 /// - `void(const pcl::PointCloud<P>::ConstPtr&)`, P = PointXYZ, PointXYZI, PointXYZL and those of
-///   railcast/io/point_types.h, if the stream has all fields of P. Usual streams have those of
-///   LabelledPoint.
+///   railcast/io/point_types.h, if the stream has all fields of P. By default, streams have those
+///   of LabelledPoint.
 ///
 /// Clouds hold the points that arrived, even if the frame is incomplete. header.stamp is in
 /// microseconds and header.seq is the frame number. sensor_origin_ and sensor_orientation_ are the
@@ -55,10 +55,10 @@ class UdpGrabber : public pcl::Grabber {
   void stop() override;
   [[nodiscard]] std::string getName() const override { return "railcast::UdpGrabber"; }
   [[nodiscard]] bool isRunning() const override;
-  /// Average over the last seconds; 0 before the second frame and when stopped.
+  /// Average over the last few seconds; 0 before the second frame and when stopped.
   [[nodiscard]] float getFramesPerSecond() const override;
 
-  /// The endpoint it listens at, or will listen at once started.
+  /// The endpoint at which the grabber listens, or will listen once started.
   [[nodiscard]] Endpoint at() const;
   /// Counts since the last start. Thread-safe.
   [[nodiscard]] Counts counts() const;
