@@ -25,8 +25,8 @@
 extern "C" {
 #endif
 
-/// Version of this interface. It grows whenever a program compiled for the version before could
-/// not use the library any more; librailcast.so.N holds version N.
+/// Version of this interface. It grows with every change after which programs compiled for the
+/// previous version can no longer use the library; librailcast.so.N holds version N.
 #define RAILCAST_C_API_VERSION 1
 
 /// RAILCAST_C_API_VERSION of the loaded library. Programs that load the library at run time compare
@@ -101,8 +101,8 @@ void railcast_destroy(railcast_sim* sim);
 ///
 /// Rays are in world axes, relative to railcast_motion::scene_origin_m. For every ray that meets a
 /// surface at a distance in [0, range_m], the host sets range_m, surface and the normal; for all
-/// other rays it leaves all of them as they are. Rays start at distance 0: a surface nearer than
-/// the sensor's least range blocks the beam.
+/// other rays it leaves these values unchanged. Rays start at distance 0, so that a surface nearer
+/// than the sensor's least range blocks the beam.
 struct railcast_rays {
   size_t num_rays;  ///< 1 to RAILCAST_MAX_RAYS.
   const float *origin_x, *origin_y, *origin_z;
@@ -111,7 +111,7 @@ struct railcast_rays {
   const float* shutter;
   float* range_m;     ///< Before the call: the greatest range.
   uint32_t* surface;  ///< Index into the host's table of surfaces. Before the call: 0.
-  float *normal_x, *normal_y, *normal_z;  ///< On either side, of a length from 1e-15 to 1e15.
+  float *normal_x, *normal_y, *normal_z;  ///< Either side of the surface; length 1e-15 to 1e15.
 };
 typedef struct railcast_rays railcast_rays;
 
@@ -126,8 +126,8 @@ typedef int (*railcast_cast_rays)(void* user, const railcast_rays* rays);
 struct railcast_surface {
   const char* material;  ///< Name of one of the scenario's materials.
   const char* label;     ///< Name of one of the scenario's labels.
-  uint32_t instance;     ///< Number of the object in frames; 0 = no object of its own.
-  int is_ego;            ///< Not 0: of the sensor's own vehicle; blocks beams, returns no points.
+  uint32_t instance;     ///< Value of frames' field "instance"; 0 = background.
+  int is_ego;            ///< Not 0: part of the sensor's own vehicle, blocks beams without a point.
 };
 typedef struct railcast_surface railcast_surface;
 
@@ -141,16 +141,16 @@ struct railcast_scene {
 };
 typedef struct railcast_scene railcast_scene;
 
-/// Makes a simulation whose rays the host traces, in a scene of its own. Of the scenario's world
+/// Makes a simulation whose rays the host traces, in the host's scene. Of the scenario's world
 /// and vehicle only `lidar.mount` is used, and only for points in vehicle axes. Effects that need
-/// more than rays are without effect: `spray`, and `thin_conductors`, for which wires are surfaces
-/// like any other. Wind moves patches of fog only: it does not sway the host's trees and wires.
+/// more than rays do nothing: `spray`, and `thin_conductors`, since wires are surfaces like any
+/// other here. Wind moves patches of fog only: it does not sway the host's trees and wires.
 /// @param[out] sim As for railcast_create().
 railcast_status railcast_create_with_scene(const railcast_config* config,
                                            const railcast_scene* scene,
                                            railcast_sim** sim);
 
-/// Replaces the table of surfaces of a host's scene, for objects that come or change.
+/// Replaces the table of surfaces of a host's scene, for objects that appear or change.
 railcast_status railcast_set_surfaces(railcast_sim* sim,
                                       const railcast_surface* surfaces,
                                       size_t num_surfaces);

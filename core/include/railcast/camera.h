@@ -14,8 +14,8 @@
 
 namespace railcast {
 
-/// Distortion of a lens after Brown and Conrady, with OpenCV's names and signs. A point at (x, y,
-/// 1) in optical axes, r^2 = x^2 + y^2, is seen at
+/// Lens distortion by the Brown-Conrady model, with OpenCV's names and signs. A point at (x, y, 1)
+/// in optical axes, r^2 = x^2 + y^2, is seen at
 ///   x' = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2)
 ///   y' = y (1 + k1 r^2 + k2 r^4 + k3 r^6) + p1 (r^2 + 2 y^2) + 2 p2 x y
 struct DistortionSpec {
@@ -42,7 +42,7 @@ struct CameraSpec {
   bool operator==(const CameraSpec&) const = default;
 };
 
-/// The most pixels of an image, as many as a frame may have firings.
+/// The largest number of pixels of an image, the same as that of firings of a frame.
 inline constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 24U;
 
 /// A camera's matrix: a point at (x', y', 1) in optical axes, after distortion, is at the pixel
@@ -58,7 +58,7 @@ struct Intrinsics {
 /// Whether the name can be that of a folder: 1 to 64 lower-case letters, digits and _.
 [[nodiscard]] bool IsCameraName(std::string_view name);
 
-/// Whether the distortion gives each place of the image a direction of its own.
+/// Whether the distortion is invertible over the whole image: each pixel has one direction.
 [[nodiscard]] bool IsInvertible(const CameraSpec& spec);
 
 /// What a camera sees at one instant. Pixels are stored row by row, from the upper left.
@@ -78,9 +78,11 @@ struct CameraImage {
   [[nodiscard]] std::size_t num_pixels() const { return std::size_t{width_px} * height_px; }
 };
 
-/// Renders images of a simulator's scenes: one ray through the centre of each pixel, and one from
-/// there to the sun, and wires by their widths in the pixels. docs/camera.md says what the colours
-/// model. Immutable.
+/// Renders images of a simulator's scenes: casts one ray through the centre of each pixel and one
+/// from the surface hit there to the sun, and draws wires by their widths in the pixels.
+/// docs/camera.md says what the colours model. MakeCamera() makes that of a scenario. Immutable.
+///
+///     camera.Render(*simulator, frame_index, image);
 class Camera {
  public:
   /// @param vehicle_from_camera Pose of the optical axes.
@@ -101,7 +103,7 @@ class Camera {
  private:
   CameraSpec spec_;
   Transform vehicle_from_camera_;
-  std::vector<Vector3> colors_;  ///< Of the materials, by index: linear red, green and blue.
+  std::vector<Vector3> colors_;  ///< By index of the material: linear red, green and blue.
 };
 
 }  // namespace railcast

@@ -11,8 +11,8 @@
 
 namespace railcast {
 
-/// How much is modelled: the rungs of the fidelity ladder, from the cheapest to the dearest, and
-/// kAuto, which stands for a choice among the effects of kFootprint.
+/// How much is modelled: the rungs of the fidelity ladder, from the cheapest to the most expensive,
+/// and kAuto, which stands for a choice among the effects of kFootprint.
 enum class Fidelity {
   kGeometry,
   kPlausibility,
@@ -93,13 +93,13 @@ template <>
 inline constexpr auto kEnumNames<NoiseShape> = std::to_array<EnumName<NoiseShape>>(
     {{NoiseShape::kIsotropic, "isotropic"}, {NoiseShape::kBeam, "beam"}});
 
-/// The parameters of the published plausibility model. The formulas stand in the headers of the
-/// effects (core/detect/kernels/published.h, echo_power.h, measurement.h).
+/// The parameters of the published plausibility model (Vir2Rail, README.md). The formulas stand in
+/// the headers of the effects (core/detect/kernels/published.h, echo_power.h, measurement.h).
 struct PlausibilitySpec {
   /// Least detectable reflectivity x cos(incidence) x fog transmission at reference_range_m. The
   /// threshold grows with the square of the range.
   double reference_threshold = 0.1;
-  double reference_range_m = 200.0;  ///< Range of that threshold, which grows with range squared.
+  double reference_range_m = 200.0;  ///< Range at which reference_threshold applies.
   double noise_sigma0_m = 0.01;      ///< Standard deviation of the noise at range 0.
   double noise_sigma1 = 1e-4;        ///< Increase of the standard deviation per metre of range.
   NoiseShape noise_shape = NoiseShape::kIsotropic;
@@ -126,7 +126,7 @@ struct BeamSpec {
   /// Sub-rays per beam of effect footprint: kNumSubRays or kNumCrowdedSubRays (ray_caster.h).
   int footprint_rays = 64;
   /// Classes, by the names of their labels. With effect footprint, a beam has a width only if it
-  /// may meet a surface of theirs; empty = every beam has one.
+  /// may meet a surface of one of these classes; empty = every beam has a width.
   std::vector<std::string> footprint_of{};
 
   bool operator==(const BeamSpec&) const = default;
@@ -153,7 +153,7 @@ struct CoverSpec {
 /// What of an echo the receiver compares with the detection threshold.
 enum class EchoSignal {
   kPeak,    ///< The peak of the received pulse, which an oblique surface lowers.
-  kEnergy,  ///< Its energy, which stretching leaves as it is.
+  kEnergy,  ///< The energy of the pulse, which stretching does not change.
 };
 template <>
 inline constexpr auto kEnumNames<EchoSignal> = std::to_array<EnumName<EchoSignal>>(
@@ -175,9 +175,9 @@ inline constexpr auto kEnumNames<ReturnMode> =
                                          {ReturnMode::kDual, "dual"},
                                          {ReturnMode::kTriple, "triple"}});
 
-/// Factors that a channel has by range change over this much of ln(range): those of one channel at
-/// two ranges D apart in it have a correlation of exp(-(D / kGainLogRange)^2 / 2) over channels.
-/// Measured (docs/results/validation.md).
+/// Correlation length, in ln(range), of the gain by which a channel's intensities depend on range.
+/// Over channels, the gains at two ranges whose logarithms differ by D have the correlation
+/// exp(-(D / kGainLogRange)^2 / 2). Measured (docs/results/validation.md).
 inline constexpr double kGainLogRange = 0.45;
 
 /// The receiver: sensitivity, return mode and measurement errors.
@@ -191,23 +191,23 @@ struct ReceiverSpec {
   double range_noise_scale_m = 0.1;    ///< sigma = hypot(floor, scale / sqrt(2 SNR)).
   /// Standard deviation of the constant range errors of the channels.
   double channel_bias_sigma_m = 0.01;
-  /// Standard deviation of the factor by which the intensity of an echo is measured wrong, whose
-  /// mean is 1. It differs from echo to echo.
+  /// Standard deviation of the random factor, with mean 1, on the intensity of each single echo.
   double intensity_noise = 0.0;
-  double channel_gain = 0.0;  ///< The same of a factor that each channel has for good, ...
-  double channel_gain_variation = 0.0;  ///< ... and of one that each has by range (kGainLogRange).
+  double channel_gain = 0.0;  ///< The same for a factor that is constant for each channel.
+  double channel_gain_variation = 0.0;  ///< The same for one varying with range (kGainLogRange).
   double pointing_jitter_deg = 0.01;    ///< Standard deviation in each of two directions.
   double clutter_gain = 0.2;  ///< Factor for the mean number of raindrop and snowflake echoes.
-  /// Range at which the receiver has a quarter of its gain for the echoes of fog; it falls with the
-  /// fourth power of the range below. Absent: NearRange_m() (core/detect/clutter/fog_profile.h).
+  /// Range at which the receiver has a quarter of its gain for echoes of fog; nearer, the gain
+  /// falls with the fourth power of the range. Absent: NearRange_m()
+  /// (core/detect/clutter/fog_profile.h).
   std::optional<double> near_range_m{};
   double fog_gain = 1.0;  ///< Factor for the power of fog's echoes.
   /// How long the receiver is blind after an echo that it has detected: an echo less than
-  /// c x dead_time_ns / 2 behind it is no return of its own.
+  /// c x dead_time_ns / 2 behind it does not become a return.
   double dead_time_ns = 0.0;
-  /// Probability that a beam is lost of which two surfaces far apart in range have a half each.
+  /// Probability that a beam is lost if two surfaces far apart in range each take half of it.
   double edge_loss = 0.0;
-  /// Share of a retroreflector's power that a beam still receives which points 1 deg beside it.
+  /// Share of a retroreflector's power that a beam pointing 1 deg beside it still receives.
   double halo_share_at_1_deg = 0.0;
   /// By how much an echo at the detection threshold is measured farther than a strong one.
   double range_walk_m = 0.0;
@@ -223,11 +223,11 @@ struct ReceiverSpec {
 /// How a sensor measures velocities along its beams (FMCW): what sends an echo shifts the frequency
 /// of the light by -2 v / wavelength.
 struct VelocitySpec {
-  double sigma_mps{};  ///< Standard deviation; without an effect of noise there is none.
+  double sigma_mps{};  ///< Standard deviation; applies with effect noise or range_noise.
   /// The unambiguous velocity: what is faster is measured as if it were slower by whole multiples
   /// of 2 max_mps.
   double max_mps{};
-  double step_mps = 0.0;  ///< Velocities are reported as multiples of it; 0 = any.
+  double step_mps = 0.0;  ///< Measured velocities are multiples of this; 0 = not rounded.
 
   bool operator==(const VelocitySpec&) const = default;
 };
@@ -272,7 +272,7 @@ struct WeatherSpec {
   double snow_echoes_per_mmph = 0.02;  ///< Mean detectable flakes per beam at 1 mm/h.
   double snow_range_scale_m = 5.0;     ///< Maxwell scale of flake ranges (median 1.538 x this).
   double snow_intensity = 0.02;        ///< Effective reflectance of a flake.
-  /// Wetness of surfaces: 0 = dry, 1 = soaked. Absent: what the rain makes of them; see
+  /// Wetness of surfaces: 0 = dry, 1 = soaked. Absent: follows from the rain rate; see
   /// WetnessOf().
   std::optional<double> wetness;
   double snow_cover = 0.0;    ///< Share of each upward-facing surface that is covered by snow.
@@ -327,8 +327,7 @@ struct DetectorSpec {
   std::optional<VelocitySpec> velocity{};  ///< Absent: the sensor measures none.
   WeatherSpec weather{};
   ClutterLabels clutter_labels{};
-  std::vector<std::uint32_t>
-      footprint_labels{};  ///< Of BeamSpec::footprint_of, in ascending order.
+  std::vector<std::uint32_t> footprint_labels{};  ///< Ids of BeamSpec::footprint_of, ascending.
 };
 
 /// Input of a Detector from the scan pattern and from the materials.

@@ -11,7 +11,7 @@
 
 namespace railcast {
 
-/// An error of a sample of echoes.
+/// An error estimated from a sample of echoes.
 struct SampledError {
   double value{};
   /// Lower end of its 95 % interval, so that a few echoes cannot exceed a limit by chance.
@@ -27,7 +27,7 @@ struct PartDeviation {
   std::string part;               ///< "50 to 100 m", or the name of the class or object.
   bool is_object{};               ///< Whether it is an object or a class of objects.
   std::uint64_t num_reference{};  ///< Echoes of the reference.
-  std::uint64_t num{};            ///< Echoes of the other frames.
+  std::uint64_t num{};            ///< Echoes of the compared frames.
   SampledError missed_share;
   SampledError false_share;
   SampledError range_m;    ///< Median.
@@ -49,28 +49,28 @@ struct Deviation {
   bool operator==(const Deviation&) const = default;
 };
 
-/// Returns whether every quantity is within its limit: over all echoes, and in every part of the
-/// scene by the lower end of its interval.
+/// Whether every quantity is within its limit: its value over all echoes, and, in every part of the
+/// scene, the lower end of its interval (SampledError::least).
 [[nodiscard]] bool IsWithin(const Deviation& deviation, const ToleranceSpec& tolerance);
-/// The parts of the scene in which a quantity is beyond its limit.
+/// The parts of the scene in which the lower end of a quantity's interval is beyond its limit.
 [[nodiscard]] std::vector<PartDeviation> PartsBeyond(const Deviation& deviation,
                                                      const ToleranceSpec& tolerance);
 
 /// The effects that fidelity `auto` selected, and the measurements behind the selection.
 struct FidelityChoice {
-  ToleranceSpec tolerance;  ///< The scenario's, within which it was made.
+  ToleranceSpec tolerance;  ///< The scenario's tolerance, for which the effects were selected.
   EffectSet effects;        ///< The selected effects.
   int footprint_rays{};     ///< The selected BeamSpec::footprint_rays.
-  /// BeamSpec::footprint_of: the scenario's own, or else the classes of the tolerance, whose echoes
-  /// do not depend on the width of beams that cannot meet them.
+  /// The selected BeamSpec::footprint_of: the scenario's own or, if that is empty, the classes of
+  /// the tolerance: beams that cannot meet these need no width, as their echoes are not compared.
   std::vector<std::string> footprint_of{};
   /// The scenario's own scene detail, SimulatorSpec::has_full_detail, which is not searched for.
   bool has_full_detail{};
   Deviation deviation;       ///< Deviation of `effects` on the sample frames.
   Deviation full_deviation;  ///< Deviation of the full candidate set on the sample frames.
-  /// Whether the selection is within tolerance on the sample frames. If false, the error of the
-  /// full set was above 0.8 of the tolerance, and that of the selection is larger by at most 0.2 of
-  /// it.
+  /// Whether the selection is within tolerance on the sample frames. If false, the deviation of the
+  /// full set was above 0.8 of the tolerance, and the deviation of the selection is larger by at
+  /// most 0.2 of the tolerance.
   bool is_within_tolerance{};
   double instructions{};       ///< Estimated instructions per firing of the selection.
   double full_instructions{};  ///< The same estimate for the full candidate set.
@@ -82,7 +82,7 @@ struct FidelityChoice {
   struct Measured {
     std::string what;  ///< The name of an effect, or "64 sub-rays".
     bool is_kept{};
-    Deviation without;  ///< Deviation on the sample frames of all but this.
+    Deviation without;  ///< Deviation on the sample frames with all but this.
   };
   std::vector<Measured> measured;
   /// Effects kept without measuring: those the user switched on, `detection`, those that save next
@@ -109,15 +109,15 @@ using ChoiceProgress = std::function<void(double done)>;
 ///
 /// The effects of the rung `footprint`, and the number of its sub-rays, are searched on sample
 /// frames: three that are spread over the run, and up to four in which objects are nearest or come
-/// near (core/fidelity/sample_frames.h), as effect_search.h describes, with the fixed costs of the
-/// table of effects. The selection is then verified on three frames in between, which took no part
-/// in it. A run of fewer than six frames has fewer of both, and none to verify with if it is one
-/// frame.
+/// near (core/fidelity/sample_frames.h), as core/fidelity/effect_search.h describes, with the fixed
+/// costs of the table of effects. The selection is then verified on three frames in between, which
+/// took no part in it. A run of fewer than six frames has fewer sample frames and fewer frames to
+/// verify with; a run of one frame has none to verify with.
 ///
-/// Only what saves at least 1 % of all instructions is left out, and never effect `detection`, so
-/// that chance decides nothing that hardly matters. Effects that the user switches on or off stay
-/// as set. Statistical effects, `mirror_paths` and the effects of the sensor itself (those without
-/// Effect::instructions) are on if the scenario gives them a cause, because no echo-by-echo
+/// Only what saves at least 1 % of all instructions is left out, so that chance does not decide
+/// what hardly matters; `detection` is never left out. Effects that the user switches on or off
+/// stay as set. Statistical effects, `mirror_paths` and the effects of the sensor itself (those
+/// without Effect::instructions) are on if the scenario gives them a cause, because no echo-by-echo
 /// comparison can judge them.
 ///
 /// The comparison uses the returns of the scenario's own return mode, before range noise, with the

@@ -19,7 +19,7 @@ namespace railcast {
 struct Label {
   std::uint32_t id{};
   std::string name;                   ///< Lower snake case, unique.
-  std::array<std::uint8_t, 3> rgb{};  ///< Distinguishable with colour-blindness, too.
+  std::array<std::uint8_t, 3> rgb{};  ///< Colours that colour-blind people can tell apart, too.
   std::string whu_railway3d;          ///< Class name in WHU-Railway3D; "Others" where none fits.
   std::string osdar23;                ///< Class name in OSDaR23; empty where none fits.
   /// Id written to .label files: SemanticKITTI's own where a class matches, above 259 otherwise.
@@ -37,6 +37,7 @@ class LabelTable {
   explicit LabelTable(std::vector<Label> labels) : labels_(std::move(labels)) {}
 
   [[nodiscard]] const std::vector<Label>& labels() const { return labels_; }
+  /// The label of that name or id; null if the table lacks it. Valid as long as the table.
   [[nodiscard]] const Label* Find(std::string_view name) const;
   [[nodiscard]] const Label* Find(std::uint32_t id) const;
 
@@ -44,7 +45,7 @@ class LabelTable {
   /// @throws InputError if the table lacks the name.
   [[nodiscard]] std::uint32_t Id(std::string_view name) const;
   /// The ids of labels, in ascending order.
-  /// @param pointer Of the list of their names.
+  /// @param pointer JSON pointer of the list of names, for messages.
   /// @throws InputError with a fault for each name that the table lacks.
   [[nodiscard]] std::vector<std::uint32_t> Ids(const std::vector<std::string>& names,
                                                const std::string& pointer) const;
@@ -77,8 +78,7 @@ inline constexpr auto kEnumNames<Handedness> = std::to_array<EnumName<Handedness
 struct OutputSpec {
   OutputFrame frame = OutputFrame::kSensor;
   Handedness handedness = Handedness::kRight;
-  /// Subtracted from world coordinates: float32 resolves them to a millimetre only within 8 km of
-  /// the origin.
+  /// World place subtracted from points in world axes: float32 resolves 1 mm only within 8 km of 0.
   std::array<double, 3> origin_m{0.0, 0.0, 0.0};
 
   bool operator==(const OutputSpec&) const = default;
@@ -116,8 +116,9 @@ struct Frame {
   bool has_velocity = false;
 
   // The measurement.
-  std::vector<float> x, y, z;    ///< m
-  std::vector<float> intensity;  ///< Effective reflectance; NaN in rung `geometry`.
+  std::vector<float> x, y, z;  ///< m
+  /// Effective reflectance, 1 = white Lambertian at normal incidence; NaN in rung `geometry`.
+  std::vector<float> intensity;
   /// Received power / detection threshold; NaN in rung `geometry`.
   std::vector<float> power_ratio;
   std::vector<float> range_m;          ///< Measured range.
@@ -137,23 +138,23 @@ struct Frame {
   std::vector<float> incidence_rad;  ///< Between the beam and the surface normal.
   /// Index into the material library; 0 = none. A mirror image has that of the mirrored surface.
   std::vector<std::uint16_t> material;
-  /// Share of the beam in this echo; NaN on rungs that trace single rays.
+  /// Share of the beam, 0 to 1, that this echo's surfaces fill; NaN for clutter and single rays.
   std::vector<float> footprint_share;
-  /// Share of the beam that falls beside the surface taking most of it: on surfaces at least 0.5 m
-  /// nearer or farther, or into the sky. Marks mixed pixels. NaN as for footprint_share.
+  /// Share of the beam, 0 to 1, that falls beside the surface taking most of it: on surfaces at
+  /// least 0.5 m nearer or farther, or into the sky. Marks mixed pixels. NaN for single rays.
   std::vector<float> mixed_share;
 
   /// Measured velocity of what sent the echo relative to the sensor, along the beam: positive =
   /// receding. m/s.
   std::vector<float> radial_velocity_mps;
-  /// The same from the exact motion of sensor and things. NaN for echoes that nothing sent.
+  /// The same without measurement errors, from the exact motions. NaN for false echoes.
   std::vector<float> true_radial_velocity_mps;
 
   [[nodiscard]] std::uint32_t width() const { return columns * returns; }
   [[nodiscard]] std::size_t num_slots() const { return std::size_t{rows} * width(); }
 
-  /// Resizes every field to num_slots() elements, those of velocity to none unless has_velocity;
-  /// reuses the memory if the shape is unchanged.
+  /// Sets the shape and resizes every field to num_slots() elements, but those of velocity to none
+  /// if has_velocity is false. Reuses the memory if the shape is unchanged.
   void Resize(std::uint32_t new_rows, std::uint32_t new_columns, std::uint32_t new_returns);
 };
 

@@ -13,19 +13,19 @@
 
 namespace railcast {
 
-/// Whether a raster is scanned column by column or row by row.
+/// Whether a raster is scanned column by column from the left, or row by row from the lowest.
 enum class RasterOrder { kColumns, kRows };
 template <>
 inline constexpr auto kEnumNames<RasterOrder> = std::to_array<EnumName<RasterOrder>>(
     {{RasterOrder::kColumns, "columns"}, {RasterOrder::kRows, "rows"}});
 
-/// A rectangular grid of directions, as scanned by the published system.
+/// A rectangular grid of directions, as the published system (Vir2Rail, README.md) scans it.
 ///
 /// Beams pass through the centres of the cells: 60 x 30 deg at 0.25 deg give 240 x 120 cells, the
-/// published 28,800 beams. Columns fire from the first (left) to the last, spread evenly over 1 /
-/// rate_hz; all rows of a column fire simultaneously.
+/// published 28,800 beams. The columns fire one after another, spread evenly over 1 / rate_hz; all
+/// rows of a column fire simultaneously. With RasterOrder::kRows, rows and columns change places.
 struct RasterSpec {
-  double horizontal_fov_deg{};  ///< > 0, <= 360.
+  double horizontal_fov_deg{};  ///< > 0, <= 360, symmetric about +x.
   double vertical_fov_deg{};    ///< > 0, <= 180, symmetric about the horizon.
   /// > 0; must divide both fields of view to within 1e-6 of a cell.
   double angular_resolution_deg{};
@@ -43,8 +43,8 @@ inline constexpr auto kEnumNames<Rotation> = std::to_array<EnumName<Rotation>>(
 /// One laser of a spinning sensor, or of one with prisms.
 struct ChannelSpec {
   double elevation_deg{};  ///< Up positive.
-  /// Added to the rotor's azimuth and counted in the sense of rotation; of a beam that enters
-  /// prisms, left positive.
+  /// In a SpinningSpec: offset from the rotor's azimuth, positive in the sense of rotation. In a
+  /// RisleySpec: azimuth of the beam before the prisms, left positive.
   double azimuth_deg{};
   double time_us{};  ///< Time since the start of the firing cycle; the earliest is 0.
 
@@ -62,15 +62,15 @@ struct ChannelSpec {
 struct SpinningSpec {
   std::vector<ChannelSpec> channels;  ///< In the vendor's laser order.
   double cycle_us{};                  ///< Duration of a firing cycle.
-  std::uint32_t columns{};            ///< Firing cycles per frame, in the window or not.
+  std::uint32_t columns{};            ///< Firing cycles per frame, also outside the azimuth window.
   Rotation rotation = Rotation::kClockwise;
   double start_azimuth_deg{};  ///< Azimuth of the rotor at the stamp; 0 = forward (+x).
-  /// Where the beams leave if they do not leave on the axis at the sensor's origin: outwards, at
-  /// the rotor's azimuth, and up. Ranges count from there.
+  /// The point from which beams leave and ranges count: its distance from the rotor's axis, at the
+  /// rotor's azimuth, and its height above the sensor's origin. Absent: the sensor's origin.
   std::optional<std::array<double, 2>> beam_origin_m{};
-  /// The rotor's azimuths from which to which the sensor fires, 0 to 360, in the sense of rotation;
-  /// over 0 if the second is the smaller one. Cycles that begin elsewhere are not fired, and the
-  /// columns of a frame are the others. Absent: all fire.
+  /// The rotor's first and last azimuth at which the sensor fires, 0 to 360 in the sense of
+  /// rotation; the window passes 0 if the last is smaller than the first. A cycle that begins
+  /// outside is not fired and has no column in the frame. Absent: all cycles fire.
   std::optional<std::array<double, 2>> azimuth_window_deg{};
 
   bool operator==(const SpinningSpec&) const = default;
@@ -80,21 +80,21 @@ struct SpinningSpec {
 struct PrismSpec {
   double wedge_deg{};         ///< Angle between its two faces, >= 0 and <= 60.
   double refractive_index{};  ///< Of the glass against air, >= 1 and <= 4.
-  double turns_hz{};          ///< Turns per second; positive from left to up. At most 10,000.
-  double start_deg{};         ///< Its thick side at the stamp of frame 0: 0 = left, 90 = up.
+  double turns_hz{};          ///< Turns per second, at most 10,000; positive turns left to up.
+  double start_deg{};         ///< Where its thick side is at frame 0's stamp: 0 = left, 90 = up.
 
   bool operator==(const PrismSpec&) const = default;
 };
 
-/// A Risley scanner, as in sensors that do not repeat their figure: all beams pass the same prisms,
-/// each of which turns at a speed of its own. The prisms turn on from frame to frame, so that each
+/// A Risley scanner, as in sensors whose figure does not repeat: all beams pass the same prisms,
+/// each of which turns at its own speed. The prisms keep turning from frame to frame, so that each
 /// frame continues the figure where the one before it ended.
 ///
-/// Light is refracted exactly, by Snell's law at every face. The first prism's face towards the
-/// lasers is at right angles to the axis, as is the outer face of all others; their other faces
-/// are inclined by the wedge. (Brazeal et al. 2021, doi 10.3390/s21144722, model a Livox Mid-40 so;
-/// thin prisms would simply add deflections of (index - 1) wedge each.) What the beams are
-/// displaced within the prisms, millimetres, is neglected. Rows and columns are those of
+/// Light is refracted exactly, by Snell's law at every face, as Brazeal et al. 2021 (doi
+/// 10.3390/s21144722) model a Livox Mid-40; thin prisms would simply add deflections of (index - 1)
+/// x wedge. The face of the first prism towards the lasers is perpendicular to the axis, as is the
+/// outer face of every other prism; the opposite faces are inclined by the wedge. The sideways
+/// shift of the beams inside the prisms, some millimetres, is neglected. Rows and columns are as in
 /// SpinningSpec.
 struct RisleySpec {
   std::vector<ChannelSpec> channels;  ///< The beams before the prisms.
@@ -109,16 +109,16 @@ struct RisleySpec {
 /// `azimuth_deg,elevation_deg,time_us`: azimuth positive to the left (counterclockwise), time from
 /// 0 and non-decreasing. The frame has one row and a column for each firing. With a fourth column,
 /// `ring`, it has a row for each ring, 0 the lowest, and a column for each of the ring's firings;
-/// all rings have as many.
+/// all rings must have the same number of firings.
 ///
-/// A table of several frames is gone through frame by frame and then begins again. All of its
-/// frames have as many firings, and the same rings at the same times since their stamps, to 1 us.
+/// A table of several frames is played frame by frame and then starts over. Its frames must have
+/// the same number of firings, and the same rings at the same times since the stamp, within 1 us.
 ///
 /// The file may also be the correction file of a Hesai AT128 (.dat). Its three frames are the
 /// sweeps of the sensor's three mirrors.
 struct FiringTableSpec {
   std::string file;          ///< Relative to the file that refers to it.
-  std::uint32_t frames = 1;  ///< Frames that the table lasts, > 0.
+  std::uint32_t frames = 1;  ///< Number of frames in the table, > 0.
 
   bool operator==(const FiringTableSpec&) const = default;
 };
@@ -137,7 +137,7 @@ struct MountSpec {
   std::array<double, 3> position_m{0.0, 0.0, 2.5};  ///< In the vehicle frame.
   double yaw_deg = 0.0;                             ///< Positive to the left.
   double pitch_deg = 0.0;                           ///< Positive nose down.
-  double roll_deg = 0.0;
+  double roll_deg = 0.0;                            ///< Positive right side down.
 
   bool operator==(const MountSpec&) const = default;
 };
@@ -145,7 +145,7 @@ struct MountSpec {
 /// Rays per packet: Embree traces 16 rays at once.
 inline constexpr std::size_t kPacketSize = 16;
 
-/// The directions of later frames where frames differ; see ScanPattern::repeats().
+/// Computes the directions of each frame where frames differ; see ScanPattern::repeats().
 struct MovingFigure;
 
 /// The firings of one frame: a table of directions and times.
@@ -172,7 +172,7 @@ struct ScanPattern {
   /// order is fixed, because what a ray on a vertex or edge hits depends on its packet.
   std::vector<std::uint32_t> packet_order;
 
-  /// Null if all frames are the same.
+  /// Null if all frames have the same directions.
   std::shared_ptr<const MovingFigure> figure;
 
   /// Whether all frames have the same firings. Otherwise directions and packet_order are those of
@@ -196,9 +196,9 @@ struct ScanPattern {
                                          std::uint32_t returns,
                                          std::size_t slot);
 
-/// Makes the pattern of a frame, which depends on nothing but its index. It is a copy of `pattern`
-/// where that repeats.
-/// @param pattern That of any frame.
+/// Returns a sensor's pattern in a frame, which depends on nothing but the frame's index. If the
+/// pattern repeats, it is a copy of `pattern`.
+/// @param pattern The sensor's pattern in any frame.
 /// @pre frame_index <= pattern.LastFrame().
 [[nodiscard]] ScanPattern PatternOfFrame(const ScanPattern& pattern, std::uint32_t frame_index);
 
@@ -209,9 +209,8 @@ struct ScanPattern {
 /// @throws InputError if the spec has no firing or more than 2^24, a number of cells is not whole,
 ///   a frame lasts longer than 1 / rate_hz or 4.29 s (time_ns has 32 bits), frame 0 does not begin
 ///   within the first 1 / rate_hz, a beam may be reflected totally in a prism, or the firing table
-///   cannot be read. The message has a line for
-///   every fault, with pointers relative to the scan object: "/pattern/cycle_us: must be > 0 (got
-///   -1)"; lines about a firing table name its file and line.
+///   cannot be read. The message has a line for every fault, with pointers relative to the scan
+///   object: "/pattern/cycle_us: must be > 0 (got -1)"; lines about a table name its file and line.
 [[nodiscard]] ScanPattern BuildScanPattern(const ScanSpec& spec);
 
 }  // namespace railcast

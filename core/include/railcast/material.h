@@ -9,21 +9,19 @@
 
 namespace railcast {
 
-/// Optical properties of a surface: five parameters of its response, two of which may have a second
-/// value at 1550 nm, how it varies from place to place, and two that say where it mirrors.
+/// Optical properties of a surface: diffuse, specular and retroreflective response, its variation
+/// from place to place, and mirroring. docs/physics.md, section 3, has the equations.
 struct Material {
   std::string name;
   double reflectivity{};  ///< Diffuse reflectance at 905 nm; 1 = white Lambertian.
   std::optional<double> reflectivity_1550nm{};  ///< Absent = as at 905 nm.
-  double facet_slope_deg =
-      0.0;                   ///< Oren-Nayar's sigma: roughness of the diffuse part; 0 = Lambertian.
-  double specular_f0 = 0.0;  ///< Reflectance of the GGX lobe at normal incidence, 905 nm.
+  double facet_slope_deg = 0.0;  ///< Oren-Nayar's sigma: diffuse roughness; 0 = Lambertian.
+  double specular_f0 = 0.0;      ///< Reflectance of the GGX lobe at normal incidence, 905 nm.
   std::optional<double> specular_f0_1550nm{};  ///< Absent = as at 905 nm.
   double specular_roughness = 0.3;             ///< GGX's alpha.
   /// Peak of a retroreflector, as a multiple of a white Lambertian; 0 = none.
   double retroreflectance = 0.0;
-  /// Standard deviation of the logarithm of its response among cells of 3 cm; the mean response is
-  /// as above.
+  /// Standard deviation of ln(response) from cell to cell of 3 cm, about the mean response above.
   double texture = 0.0;
   /// Standard deviation of the heights of a flat surface that is smooth enough to mirror,
   /// micrometres. Absent = too rough, or not flat.

@@ -37,7 +37,7 @@ struct ImuSpec {
   bool operator==(const ImuSpec&) const = default;
 };
 
-/// A receiver of satellite navigation, of which only the antenna's place counts.
+/// A receiver of satellite navigation. Of its mounting, only the antenna's place matters.
 ///
 /// It has a fix where enough of the sky is free. The errors of its position are Gauss-Markov
 /// processes, those of its velocity white noise; both grow with 1 / sqrt(sky share), as fewer
@@ -49,9 +49,9 @@ struct GnssSpec {
   double horizontal_noise_m = 0.0;  ///< Standard deviation of x and of y under a free sky.
   double vertical_noise_m = 0.0;
   double velocity_noise_mps = 0.0;    ///< Standard deviation of each component under a free sky.
-  double correlation_time_s = 100.0;  ///< In which the correlation of position errors falls to 1/e.
-  double elevation_mask_deg = 10.0;   ///< Below this the sky does not count.
-  double least_sky_share = 0.3;       ///< Of the sky above the mask, that a fix needs.
+  double correlation_time_s = 100.0;  ///< Time in which position errors decorrelate to 1/e.
+  double elevation_mask_deg = 10.0;   ///< Sky below this elevation does not count.
+  double least_sky_share = 0.3;       ///< Free share of the sky above the mask that a fix needs.
 
   bool operator==(const GnssSpec&) const = default;
 };
@@ -63,17 +63,17 @@ struct OdometerSpec {
   double wheel_diameter_m = 0.92;                 ///< As the odometer assumes it.
   std::optional<double> true_wheel_diameter_m{};  ///< Absent = as assumed.
   std::uint32_t pulses_per_revolution = 100;
-  double traction_slip_share = 0.0;  ///< By which the wheel turns faster while it accelerates.
-  double braking_slip_share = 0.0;   ///< By which the wheel turns slower while it brakes.
-  /// Coefficient of adhesion. If given, the wheel creeps in proportion to the force that it passes
-  /// on, by creep_at_adhesion where all adhesion is used up.
+  double traction_slip_share = 0.0;  ///< Share by which the wheel turns faster in traction.
+  double braking_slip_share = 0.0;   ///< Share by which the wheel turns slower in braking.
+  /// Coefficient of adhesion. If given, the wheel also creeps in proportion to the force at its rim
+  /// (the linear part of Carter 1926), by the share creep_at_adhesion at the adhesion limit.
   std::optional<double> adhesion{};
   double creep_at_adhesion = 0.01;
 
   bool operator==(const OdometerSpec&) const = default;
 };
 
-/// The motion sensors of the vehicle. All have names of their own.
+/// The motion sensors of the vehicle. No two may have the same name.
 struct MotionSensorsSpec {
   std::vector<ImuSpec> imus{};
   std::vector<GnssSpec> gnss{};
@@ -86,18 +86,19 @@ struct MotionSensorsSpec {
 struct ImuSample {
   std::int64_t time_ns{};
   Vector3 angular_velocity_radps = Vector3::Zero();
-  /// Acceleration without gravity's: (0, 0, 9.80665) at rest on level track.
+  /// Acceleration minus that of gravity: (0, 0, 9.80665) at rest on level track.
   Vector3 specific_force_mps2 = Vector3::Zero();
   Vector3 true_angular_velocity_radps = Vector3::Zero();  ///< Without bias and noise.
   Vector3 true_specific_force_mps2 = Vector3::Zero();     ///< Without bias and noise.
 };
 
-/// What a receiver measures at an instant. Without a fix, what it measures is NaN.
+/// What a GNSS receiver measures at an instant. Without a fix, the measured values are NaN. Vectors
+/// are in the world frame: x to the east, y to the north of its map, z up.
 struct GnssSample {
   std::int64_t time_ns{};
   bool has_fix = false;
   double sky_share{};  ///< Free share of the sky above the elevation mask, 0 to 1.
-  /// Of the antenna, in the world frame: x to the east, y to the north of its map, z up.
+  /// Position of the antenna.
   Vector3 position_m = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
   /// The same place on the Earth (WGS 84); NaN where the alignment has no map.
   double longitude_deg = std::numeric_limits<double>::quiet_NaN();
@@ -109,8 +110,7 @@ struct GnssSample {
   Vector3 true_position_m = Vector3::Zero();
   Vector3 true_velocity_mps = Vector3::Zero();
 
-  /// The third coordinate beside longitude and latitude, above the datum of the alignment's
-  /// heights.
+  /// Height that goes with longitude and latitude, above the datum of the alignment's heights.
   [[nodiscard]] double height_m() const { return position_m.z(); }
 };
 
@@ -118,8 +118,8 @@ struct GnssSample {
 struct OdometerSample {
   std::int64_t time_ns{};
   std::int64_t pulses{};     ///< Since time 0.
-  double distance_m{};       ///< These pulses by the assumed diameter.
-  double speed_mps{};        ///< From the pulses since the sample before.
+  double distance_m{};       ///< Distance of these pulses at the assumed wheel diameter.
+  double speed_mps{};        ///< From the pulses since the previous sample.
   double true_distance_m{};  ///< Along the track, since time 0.
   double true_speed_mps{};
 };
@@ -169,15 +169,18 @@ struct MotionSamples {
   std::vector<std::vector<OdometerSample>> odometers;
 };
 
-/// Samples the motion sensors of a scenario. A sample is a function of its index, the seed and what
-/// commands have changed by then, whichever samples were made before. Immutable, thread-safe, cheap
-/// to copy. MakeMotionSensors() makes those of a scenario.
+/// Samples the motion sensors of a scenario. A sample depends only on its index, on the seed and on
+/// what commands have changed until its time, not on which samples were made before. Immutable,
+/// thread-safe, cheap to copy.
+///
+///     const auto sensors = MakeMotionSensors(scenario, *world);
+///     const MotionSamples samples = sensors->Sample(*simulator, frame_index);
 class MotionSensors {
  public:
-  /// @param vehicle_from_imus The mounts of the IMUs.
-  /// @param world As it is at time 0.
-  /// @param map Of its alignment.
-  /// @param seed_of The key of the draws of the sensor of a name.
+  /// @param vehicle_from_imus The mounts of the IMUs, in the order of spec.imus.
+  /// @param world The world as it is at time 0.
+  /// @param map The map of the world's alignment, if it has one.
+  /// @param seed_of Returns the key of a sensor's random draws, given the sensor's name.
   MotionSensors(const MotionSensorsSpec& spec,
                 const std::vector<Transform>& vehicle_from_imus,
                 const RailWorld& world,
@@ -187,7 +190,7 @@ class MotionSensors {
   [[nodiscard]] const MotionSensorsSpec& spec() const;
 
   /// Makes the samples in the time of a begun frame: from its stamp on and before the next one's.
-  /// @param simulator Began the frame; its world is the frame's.
+  /// @param simulator The one that began the frame, still with the world of the frame.
   [[nodiscard]] MotionSamples Sample(Simulator& simulator, BegunFrame& begun) const;
   /// As above, of a frame that was not begun.
   [[nodiscard]] MotionSamples Sample(Simulator& simulator, std::uint32_t frame_index) const;

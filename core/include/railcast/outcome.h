@@ -30,11 +30,12 @@ inline constexpr std::array<std::string_view, 11> kOutcomeNames = {
     "near_range", "ego",        "sensor_dropout", "no_further_echo", "cover_blocked",
 };
 
+/// The name of an outcome in files and messages: "rain_absorbed".
 [[nodiscard]] constexpr std::string_view OutcomeName(Outcome outcome) {
   return kOutcomeNames[static_cast<std::size_t>(outcome)];
 }
 
-/// Returns whether the firing has a point, that is, x, y, z and range_m are not NaN.
+/// Whether a slot with this outcome has a point, that is, its x, y, z and range_m are not NaN.
 [[nodiscard]] constexpr bool HasPoint(Outcome outcome) {
   return outcome == Outcome::kReturned || outcome == Outcome::kClutter;
 }

@@ -47,10 +47,10 @@ struct alignas(64) RayTile {
 
 /// The number of sub-rays that sample the cross-section of a beam: whole packets.
 inline constexpr std::size_t kNumSubRays = 64;
-/// The number of sub-rays, the first ones, that sample a beam among a crowd of small surfaces, or
-/// every beam if the sensor's spec says so.
+/// How many sub-rays, the first ones, sample a beam that meets a crowd of small surfaces, or every
+/// beam if BeamSpec::footprint_rays is this number.
 inline constexpr std::size_t kNumCrowdedSubRays = 16;
-/// The number of sub-rays that a closer look at a beam takes at most.
+/// The largest number of sub-rays of a beam, for a closer look at it.
 inline constexpr std::size_t kNumCloserSubRays = 4 * kNumSubRays;
 static_assert(kNumCloserSubRays <= kTileSize);
 
@@ -79,8 +79,8 @@ struct alignas(64) BeamRays {
   std::size_t num_rays = kNumSubRays;
   /// The number of triangles that casters have intersected with sub-rays so far.
   std::uint32_t num_met = 0;
-  /// At least this far away is whatever the ellipse of the sub-rays may meet, but none of them
-  /// does: something thin, or an edge. A caster that knows of such things lowers it.
+  /// Lower bound of the ranges of surfaces in the ellipse that no sub-ray meets: thin things and
+  /// edges. A caster that notices such a surface lowers it.
   float missed_m = std::numeric_limits<float>::infinity();
   float origin[3]{};  ///< m
   float axis[3]{};    ///< Direction of the beam's axis; unit length.
@@ -89,7 +89,7 @@ struct alignas(64) BeamRays {
   float half_h[3]{}, half_v[3]{};
 
   float direction_x[kNumCloserSubRays], direction_y[kNumCloserSubRays],
-      direction_z[kNumCloserSubRays];  ///< Unit.
+      direction_z[kNumCloserSubRays];  ///< Unit length.
   float range_m[kNumCloserSubRays];
   std::uint32_t facet[kNumCloserSubRays];  ///< Index into `facets`.
 
@@ -98,7 +98,7 @@ struct alignas(64) BeamRays {
 };
 
 /// Finds the first surface along rays. railcast brings its own, TraceScene; a host program may
-/// supply another one (HostScene).
+/// supply another one (HostScene, examples/own_ray_caster.cpp).
 class RayCaster {
  public:
   virtual ~RayCaster() = default;
@@ -112,9 +112,9 @@ class RayCaster {
   virtual void CastBeam(BeamRays& beam) const;
 
   /// Whether any ray within the ellipse of a beam's sub-rays may meet a surface of
-  /// BeamSpec::footprint_of nearer than `range_m[0]`, whatever stands before it. Must be
-  /// thread-safe, and never false where one does; this implementation knows of none that does not.
-  /// Of the sub-rays, only the first one's range is set.
+  /// BeamSpec::footprint_of nearer than `range_m[0]`, even if others hide it. It may be true where
+  /// no ray does, but never false where one does; this implementation always returns true. Must be
+  /// thread-safe. Of the sub-rays' arrays, only `range_m[0]` is set.
   [[nodiscard]] virtual bool NeedsWidth(const BeamRays& beam) const;
 };
 

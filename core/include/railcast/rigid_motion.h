@@ -4,7 +4,7 @@
 
 namespace railcast {
 
-/// Where a rigid body is at an instant, and how it moves. Vectors are in world axes.
+/// Pose and motion of a rigid body at an instant. Velocities and accelerations are in world axes.
 struct RigidMotion {
   Transform world_from_body = Transform::Identity();
   Vector3 velocity_mps = Vector3::Zero();       ///< Of the body's origin.
@@ -18,8 +18,8 @@ struct RigidMotion {
     const Vector3 arm_m = world_from_body.linear() * point_m;
     return velocity_mps + angular_velocity_radps.cross(arm_m);
   }
-  /// Acceleration of a point of the body: that of the origin, the tangential and the centripetal
-  /// one.
+  /// Acceleration of a point: that of the body's origin plus the tangential and centripetal ones.
+  /// @param point_m In the body's frame.
   [[nodiscard]] Vector3 AccelerationOf_mps2(const Vector3& point_m) const {
     const Vector3 arm_m = world_from_body.linear() * point_m;
     return acceleration_mps2 + angular_acceleration_radps2.cross(arm_m) +

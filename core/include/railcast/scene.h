@@ -36,8 +36,8 @@ struct Part {
 struct Model {
   std::string name;
   std::vector<Part> parts;
-  /// Whether it is a plant, nearly all of which is leaves or blades, many, small and no closed
-  /// surface: it is traced faster, and a ray may pass between two triangles that share an edge.
+  /// Whether it is a plant that consists mostly of many small leaves or blades. Such a model is
+  /// traced faster, but a ray may pass between two triangles that share an edge.
   bool is_foliage = false;
 
   [[nodiscard]] std::size_t num_triangles() const;
@@ -45,12 +45,13 @@ struct Model {
   [[nodiscard]] Eigen::AlignedBox3d Bounds() const;
 };
 
-/// A model made of fewer and larger pieces, for where a sensor cannot tell the two apart
-/// (docs/results/detail.md). Both limits count at the model's place and scale with the model.
+/// A model of fewer and larger pieces. It replaces the finest model where, at the model's place,
+/// the rays are so far apart and the beams so wide that the sensor cannot tell the two from each
+/// other (docs/results/detail.md). Both limits scale with the model.
 struct CoarserModel {
   /// Its parts have the surfaces of the finest model's parts, in the same order.
   std::shared_ptr<const Model> model;
-  double ray_spacing_m{};  ///< Least distance of neighbouring rays.
+  double ray_spacing_m{};  ///< Least distance between neighbouring rays.
   double beam_width_m{};   ///< Least width of beams, where they have any; 0 = any width will do.
 };
 
@@ -94,13 +95,13 @@ struct Chunk {
   std::vector<Wire> wires{};
 };
 
-/// Where a sensor cannot tell a chunk's coarser surfaces from the finest (docs/results/detail.md).
+/// When a sensor cannot tell a chunk's coarser surfaces from the finest (docs/results/detail.md).
 struct CoarserSurfaces {
   Eigen::AlignedBox2d area_m;  ///< Where in plan the chunk's surfaces lie, in its frame.
-  double ray_spacing_m{};      ///< Least distance of neighbouring rays.
-  double beam_width_m{};       ///< Least width of beams, where they have any.
-  double sight_angle_rad{};    ///< Greatest angle in plan between the chunk's x axis and the line
-                               ///< from its origin to the sensor, to either side and end.
+  double ray_spacing_m{};      ///< Least distance of rays at the nearest place of the area.
+  double beam_width_m{};       ///< Least width of beams there, where they have any.
+  double sight_angle_rad{};    ///< Greatest angle in plan between the chunk's x axis, forwards
+                               ///< or backwards, and the line from its origin to the sensor.
 };
 
 /// An object with a name, a bounding box and an instance id: wagon, person, pole, ...
@@ -122,8 +123,9 @@ struct SceneObject {
   std::int64_t pose_step_ns = 50'000'000;
 };
 
-/// Interface between the simulator and the world it scans. All results depend on the arguments
-/// alone, so frames can be made in any order. All functions are thread-safe.
+/// Interface between the simulator and the world it scans (examples/own_world.cpp). All results
+/// depend on the arguments alone, so frames can be made in any order. All functions must be
+/// thread-safe. Times are simulation times; objects are given by their index in objects().
 class World {
  public:
   virtual ~World() = default;
@@ -137,13 +139,13 @@ class World {
   [[nodiscard]] virtual std::vector<Transform> VehiclePosesIn(int /*home_chunk*/) const {
     return {};
   }
-  /// The chunks that lie within `range_m` of a vehicle's origin anywhere in `home_chunk`, in
-  /// ascending order.
+  /// The chunks within `range_m` of the vehicle's origin anywhere in `home_chunk`, ascending.
   [[nodiscard]] virtual std::vector<int> ChunksInReach(int home_chunk, double range_m) const = 0;
   [[nodiscard]] virtual Transform WorldFromChunk(int chunk) const = 0;
+  /// The chunk in its finest form.
   [[nodiscard]] virtual Chunk BuildChunk(int chunk) const = 0;
-  /// What is needed to trace a chunk in its coarser forms, each coarser than the one before; empty
-  /// if it has one form only.
+  /// The conditions for tracing a chunk in its coarser forms, each coarser than the one before;
+  /// empty if the chunk has one form only.
   [[nodiscard]] virtual std::vector<CoarserSurfaces> CoarserSurfacesOf(int /*chunk*/) const {
     return {};
   }
@@ -156,7 +158,7 @@ class World {
   [[nodiscard]] virtual const std::vector<SceneObject>& objects() const = 0;
   [[nodiscard]] virtual Transform WorldFromObject(std::size_t object,
                                                   std::int64_t time_ns) const = 0;
-  /// The poses of an object's pieces, in their order; for an object without any, its own pose.
+  /// The poses of an object's SceneObject::pieces, in order; its own pose if it has no pieces.
   [[nodiscard]] virtual std::vector<Transform> WorldFromPieces(std::size_t object,
                                                                std::int64_t time_ns) const {
     return {WorldFromObject(object, time_ns)};

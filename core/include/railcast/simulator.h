@@ -22,31 +22,31 @@ namespace railcast {
 /// Everything that a simulation depends on besides the world, the scan pattern and the frame index.
 struct SimulatorSpec {
   DetectorSpec detector{};
-  Transform vehicle_from_sensor = Transform::Identity();  ///< As reported: its nominal mount.
-  /// Error of the mount: rays leave from the true sensor, and poses and points in the axes of the
-  /// vehicle or the world are reported as if it were the nominal one.
+  Transform vehicle_from_sensor = Transform::Identity();  ///< The nominal mount.
+  /// Mount error: rays leave from the true pose of the sensor, whereas reported poses, and points
+  /// in vehicle or world axes, are computed as if the sensor were at its nominal pose.
   Transform nominal_from_true = Transform::Identity();
   OutputSpec output{};
   std::string origin_place = "/output/origin_m";  ///< Name of output.origin_m in error messages.
   std::uint16_t snow_material{};  ///< Material of the snow on covered surfaces; 0 = no snow cover.
-  bool has_full_detail = false;   ///< Whether nothing has a coarser form far away.
+  bool has_full_detail = false;   ///< Whether far things are traced as finely as near ones.
   std::string isa{};              ///< Embree instruction set to force; empty = the best available.
 };
 
-/// Callback that reports progress while a window is built: the number of completed steps, most of
-/// which are chunks, of the total. The last call has num_done == num_steps. Several threads may
-/// call it at once. An exception that it throws aborts the build and propagates to every caller
-/// waiting for the window.
+/// Callback that reports progress while a window, the scene of the chunks around the vehicle, is
+/// built: num_done of num_steps steps, most of which are chunks, are completed. The last call has
+/// num_done == num_steps. Several threads may call it at once. An exception that it throws aborts
+/// the build and propagates to every caller waiting for the window.
 using WindowProgress = std::function<void(std::size_t num_done, std::size_t num_steps)>;
 
 /// The history of one firing from hit to return, as `railcast-generate trace` shows it. The steps
 /// describe its first echo.
 struct FiringStory {
   std::uint32_t firing{};
-  std::uint32_t time_ns{};  ///< Since the stamp.
-  std::uint32_t slot{};     ///< Slot of the firing's first return.
-  Vector3 direction_sensor;
-  Vector3 origin_world;
+  std::uint32_t time_ns{};   ///< Since the stamp.
+  std::uint32_t slot{};      ///< Slot of the firing's first return.
+  Vector3 direction_sensor;  ///< Unit vector in the sensor frame.
+  Vector3 origin_world;      ///< Where the beam leaves, in the world frame, m.
   /// Label of the surface hit; 0 = none. The next three describe the same surface.
   std::uint32_t label{};
   std::uint32_t instance{};
@@ -83,29 +83,28 @@ struct FiringStory {
   std::vector<Echo> echoes;
 };
 
-/// Another way of making firings: the simulator's spec with other effects.
+/// A variant in which ScanFirings() simulates firings: the simulator's spec with other effects.
 struct FiringVariant {
   EffectSet effects{};
   int footprint_rays = 64;  ///< BeamSpec::footprint_rays.
-  /// Whether only those beams have a width that have one by the simulator's spec
-  /// (DetectorSpec::footprint_labels); otherwise all have.
+  /// Whether, as in the simulator's spec, a beam has a width only if it may meet a surface with one
+  /// of DetectorSpec::footprint_labels; if false, every beam has one.
   bool has_footprint_of = true;
 };
 
 /// How much of an object the beams of a frame see.
 ///
-/// Where beams have a width (effect `footprint`), each is sampled by 16 rays of equal share;
-/// otherwise it is its central ray. The same rays, each at the time of its firing, are cast at the
-/// object alone and at the whole scene. Whether an echo is detected makes no difference.
+/// Where beams have a width (effect `footprint`), 16 rays of equal weight sample each beam;
+/// otherwise its central ray stands for it. The same rays, each at the time of its firing, are cast
+/// at the object alone and at the whole scene. Whether an echo is detected makes no difference.
 struct ObjectView {
-  /// Firings of which a ray would meet the object within range if nothing else stood there.
+  /// Firings with a ray that would meet the object within range if nothing else stood there.
   std::uint32_t firings_alone{};
-  std::uint32_t firings_visible{};  ///< Those of which a ray meets it first.
-  std::uint32_t rays_alone{};       ///< Rays that would meet it if nothing else stood there.
-  std::uint32_t rays_visible{};     ///< Those that meet it first.
+  std::uint32_t firings_visible{};  ///< Firings with a ray that meets the object first.
+  std::uint32_t rays_alone{};       ///< Rays that would meet the object if it stood alone.
+  std::uint32_t rays_visible{};     ///< Rays that meet the object first.
 
-  /// The share of the object that something else hides, 0 to 1; absent where no ray would meet it
-  /// even alone.
+  /// The share of rays_alone that something else blocks, 0 to 1; absent if rays_alone is 0.
   [[nodiscard]] std::optional<double> occlusion() const {
     if (rays_alone == 0) return std::nullopt;
     return 1.0 - static_cast<double>(rays_visible) / static_cast<double>(rays_alone);
@@ -115,19 +114,19 @@ struct ObjectView {
 
 class SceneStore;
 
-/// A frame that Simulator::Begin() has begun. It holds the stationary geometry that it needs, and
-/// its moving objects from their first use on.
+/// A frame that Simulator::Begin() has begun. It holds the stationary geometry around the vehicle
+/// and, once a function has needed them, the moving objects.
 struct BegunFrame;
 
 /// Makes the store of a world's geometry (chunks and models, ready to be traced), which is built
 /// once for all sensors of a run. The store is thread-safe.
 /// @param isa Embree instruction set to force; empty = the best available.
+/// @throws InputError if this machine lacks the instruction set.
 [[nodiscard]] std::shared_ptr<SceneStore> MakeSceneStore(std::shared_ptr<const World> world,
                                                          const MaterialLibrary& materials,
                                                          const std::string& isa = {});
 
-/// A scene that a host program traces itself, with its own geometry and surface table. The wind of
-/// the weather moves nothing of it.
+/// A scene that a host program traces itself, with its own surfaces, which wind does not move.
 struct HostScene {
   const RayCaster& caster;  ///< Traces rays given in the host's window frame.
   /// Window frame in metres, chosen by the host; its origin must be near the sensor for float32 to
@@ -153,7 +152,8 @@ struct SceneOfFrame {
 /// detected and stored.
 ///
 /// A frame depends on its index alone, never on earlier frames or on the number of threads.
-/// MakeSimulator() builds the simulator of a scenario.
+/// MakeSimulator() builds the simulator of a scenario. Functions that make frames or scenes throw
+/// InputError if memory or threads do not suffice.
 ///
 ///     const auto simulator = MakeSimulator(ReadScenario(file), /*num_threads=*/0);
 ///     Frame frame;
@@ -162,6 +162,7 @@ class Simulator {
  public:
   /// @throws InputError if a number in `spec` is invalid (CheckDetectorSpec), `snow_material` is
   ///   not an index into `materials`, or this machine lacks the instruction set.
+  /// @param num_threads 0 = all cores.
   Simulator(std::shared_ptr<const World> world,
             ScanPattern pattern,
             const MaterialLibrary& materials,
@@ -185,38 +186,38 @@ class Simulator {
   void Scan(std::uint32_t frame_index, const HostScene& host, Frame& frame);
 
   /// Begins a frame: waits for the stationary geometry around the vehicle, which is built if
-  /// necessary. Frames are best begun in their order, since what lies behind the vehicle is
-  /// forgotten. One caller at a time.
+  /// necessary. Frames are best begun in ascending order, because geometry behind the vehicle is
+  /// dropped and would be built again. One caller at a time.
   [[nodiscard]] std::shared_ptr<BegunFrame> Begin(std::uint32_t frame_index);
-  /// As Scan() of its index. Several threads may call this and the other functions that take a
-  /// begun frame at once, for different frames, as long as nothing is changed by Use(), UseWorld()
-  /// or UseThreads().
+  /// As Scan() with the index of the begun frame. Several threads may call this and the other
+  /// functions that take a begun frame at once, each for another frame, while no thread calls
+  /// Use(), UseWorld() or UseThreads().
   void Scan(BegunFrame& begun, Frame& frame);
-  /// As Scan() and then ViewObjects(), in less time: where beams are single rays, the objects are
-  /// looked for with those that the frame has cast.
+  /// As Scan() followed by ViewObjects(), but faster: where beams are single rays, the views are
+  /// counted from the rays that were cast for the frame.
   void Scan(BegunFrame& begun, Frame& frame, std::vector<ObjectView>& views);
 
-  /// As Scan(), but only firings whose beams may meet one of some objects are traced, and those of
-  /// their packets; all others are as if they met nothing. What the frame has on these objects is
-  /// the same, in a fraction of the time where they are few and far; where halos reach from beam to
-  /// beam, all firings are traced.
+  /// As Scan(), but traces only the packets with a firing whose beam may meet one of the given
+  /// objects; all other firings are stored as if they met nothing. Echoes of these objects are as
+  /// in Scan(), in a fraction of the time if the objects are few and far away. Where halos reach
+  /// from beam to beam, all firings are traced.
   /// @param objects Indices into world().objects().
   void ScanNearObjects(BegunFrame& begun, std::span<const std::size_t> objects, Frame& frame);
 
-  /// Which beams of a frame may meet one of some objects, with the simulator's own effects or with
-  /// those of a variant: all that do are among them, and some that do not.
+  /// The firings of a frame whose beams may meet one of the given objects, with the simulator's own
+  /// effects or those of any variant (UseVariants()): a superset of the firings that do meet one.
   /// @param objects As for ScanNearObjects().
-  /// @return Their cells, row * columns + column, rising: as ScanFirings() takes them.
+  /// @return Indices of their cells, row * columns + column, ascending: as ScanFirings() takes them.
   [[nodiscard]] std::vector<std::uint32_t> FiringsNearObjects(
       BegunFrame& begun, std::span<const std::size_t> objects) const;
 
-  /// Tells the ways in which ScanFirings() makes firings.
+  /// Sets the variants in which ScanFirings() simulates firings.
   void UseVariants(std::vector<FiringVariant> variants);
-  /// Makes some firings of a begun frame in every variant, in the scene that the frame itself is
-  /// traced in and with the same random draws: what differs from the frame comes from the effects.
-  /// Halos, which reach from beam to beam, are left out. Thread-safe as Scan().
-  /// @param cells Numbers row * columns + column of the firings, rising; at least one.
-  /// @param frames For each variant: one row, with a column for each cell.
+  /// Simulates some firings of a begun frame in every variant, in the same scene and with the same
+  /// random draws as the frame itself, so that differences from it are due to the effects alone.
+  /// Halos, which reach from beam to beam, are left out. Thread-safe as Scan() of a begun frame.
+  /// @param cells Indices row * columns + column of the firings, ascending; at least one.
+  /// @param[out] frames One for each variant, with one row and a column for each cell.
   void ScanFirings(BegunFrame& begun,
                    std::span<const std::uint32_t> cells,
                    std::span<Frame> frames);
@@ -225,12 +226,12 @@ class Simulator {
   [[nodiscard]] std::vector<ObjectView> ViewObjects(std::uint32_t frame_index);
   [[nodiscard]] std::vector<ObjectView> ViewObjects(BegunFrame& begun);
 
-  /// Calls `visit` with the scene of a frame, on the run's threads: TBB's algorithms within it use
-  /// as many as the simulator.
+  /// Calls `visit` with the scene of a frame, in the simulator's TBB arena: TBB algorithms in
+  /// `visit` use the simulator's number of threads.
   void VisitScene(std::uint32_t frame_index, const std::function<void(const SceneOfFrame&)>& visit);
   void VisitScene(BegunFrame& begun, const std::function<void(const SceneOfFrame&)>& visit);
 
-  /// Calls `work` on the run's threads: TBB's algorithms within it use as many as the simulator.
+  /// Calls `work` in the simulator's TBB arena, as VisitScene() does with `visit`.
   void Execute(const std::function<void()>& work);
 
   /// Replays one firing with the same packet and random numbers as in Scan().
@@ -251,11 +252,11 @@ class Simulator {
   /// the background. Scan() and any other function that needs a window rethrows what the callback
   /// throws.
   void UseProgress(WindowProgress progress);
-  /// Tells the stamp of the last frame that will be begun: windows that only later ones would need
-  /// are not built ahead. Frames are the same, be it right or wrong.
+  /// Sets the stamp of the last frame that will be begun, so that windows for later frames are not
+  /// built ahead. A wrong stamp costs time but changes no frame.
   void UseLastStamp(std::int64_t stamp_ns);
-  /// Keeps the geometry around so many earlier places of the vehicle, for runs that pass them
-  /// again. Frames are the same; memory grows by some ten megabytes for each.
+  /// Keeps the `num` windows used last besides the current one, for runs that return to earlier
+  /// places. Changes no frame; each window takes some ten megabytes of memory.
   void KeepWindows(std::size_t num);
   /// Sets the number of threads.
   /// @param num_threads 0 = all cores.
@@ -270,9 +271,9 @@ class Simulator {
   /// The world currently in use.
   [[nodiscard]] const World& world() const;
   [[nodiscard]] const std::shared_ptr<const World>& shared_world() const;
-  /// The pattern that the simulator was made with, which gives that of any frame
-  /// (PatternOfFrame()).
+  /// The pattern that the simulator was made with; PatternOfFrame() gives that of any frame.
   [[nodiscard]] const ScanPattern& pattern() const;
+  /// The pose of the nominal sensor (SimulatorSpec), which frames report.
   [[nodiscard]] Transform WorldFromSensor(std::int64_t time_ns) const;
 
  private:

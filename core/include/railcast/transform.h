@@ -20,8 +20,8 @@ namespace railcast {
 using Vector3 = Eigen::Vector3d;
 using Transform = Eigen::Isometry3d;
 
-/// A right-handed rotation: first roll about x, then pitch about y (positive: nose down), then yaw
-/// about z (positive: left).
+/// The rotation Rz(yaw) Ry(pitch) Rx(roll): first roll about x (positive: right side down), then
+/// pitch about y (positive: nose down), then yaw about z (positive: to the left).
 [[nodiscard]] inline Eigen::Matrix3d RotationFromYawPitchRoll(double yaw_rad,
                                                               double pitch_rad,
                                                               double roll_rad) {
@@ -31,6 +31,7 @@ using Transform = Eigen::Isometry3d;
       .toRotationMatrix();
 }
 
+/// The transform that first rotates by `rotation` and then translates by `translation_m`.
 [[nodiscard]] inline Transform MakeTransform(const Eigen::Matrix3d& rotation,
                                              const Vector3& translation_m) {
   Transform result = Transform::Identity();
