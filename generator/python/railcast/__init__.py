@@ -6,7 +6,8 @@
 
 SCENARIOS is the folder of the scenarios that come with railcast. open() reads recordings, Simulator makes frames in
 memory, and Dataset gives frames of recordings by index, as loaders for training want them. Faults in a user's input
-raise InputError. EXTRAS names those whose recordings open() reads, beside the product's: "packets", "ros", "osi".
+raise InputError. EXTRAS lists the optional readers in this build, whose formats open() reads as well: "packets", "ros",
+"osi". OUTCOMES has the values of the field `outcome` by name.
 """
 
 import pathlib

@@ -25,20 +25,20 @@ KEPT_OPEN = 64
 
 
 def box_of(frame: Frame, thing: Object, compensate: str) -> list[float]:
-    """Centre x, y, z, length, width, height in m and yaw in rad, in the sensor's axes."""
+    """An object's box as 7 numbers: centre x, y, z, length, width, height in m and yaw in rad, in the sensor's axes."""
     pose = frame.sensor_from_box(thing, compensate=compensate)
     return [*pose[:3, 3], *thing.size_m, math.atan2(pose[1, 0], pose[0, 0])]
 
 
 def rows_of_database(index: pathlib.Path) -> list[tuple[str, int, str, str]]:
-    """Folder, number of frames, part and sensor of each sequence."""
+    """Folder, number of frames, split and sensor of each sequence of a data set, from its index.sqlite."""
     with contextlib.closing(sqlite3.connect(f"{index.absolute().as_uri()}?mode=ro", uri=True)) as connection:
         return connection.execute("SELECT folder, num_frames, split, sensor FROM sequences JOIN scenarios "
                                   "USING (scenario) ORDER BY id").fetchall()
 
 
 def rows_of_lines(index: pathlib.Path) -> list[tuple[str, int, str, str]]:
-    """As rows_of_database(). A sequence has its lines together."""
+    """As rows_of_database(), from index.jsonl, where the lines of a sequence follow one another."""
     with open(index, encoding="utf-8") as file:
         lines = (json.loads(line) for line in file)
         keys = [(line["folder"], line["split"], line["sensor"]) for line in lines]
@@ -46,7 +46,7 @@ def rows_of_lines(index: pathlib.Path) -> list[tuple[str, int, str, str]]:
 
 
 def recordings_of(source: str, split: str | None, sensor: str | None) -> list[tuple[str, int]]:
-    """Path and number of frames of each recording of a source."""
+    """Path and number of frames of each recording of a source. Raises InputError if it has no such split or sensor."""
     # The database is faster, and not every data set has it.
     for name, read in (("index.sqlite", rows_of_database), ("index.jsonl", rows_of_lines)):
         index = pathlib.Path(source, name)
@@ -72,21 +72,25 @@ def recordings_of(source: str, split: str | None, sensor: str | None) -> list[tu
 class Dataset:
     """The frames of a data set, or of one or several recordings, by index.
 
+        dataset = railcast.Dataset("out/dataset", split="train")
+        points, labels = dataset[0]["points"], dataset[0]["labels"]
+
     It has `__len__` and `__getitem__`, which is all that torch's DataLoader asks of a dataset; torch
     itself is not needed. Each process opens the recordings that it reads, so that workers may be
     forked or spawned. A sample is a dict:
 
-        points      float32, (n, len(fields)): the values of the slots that have a point; x, y and z
-                    are where they were at the stamp, see `compensate`
-        labels      int64, (n,): their values of the field `label`
+        points      float32, (n, len(fields)): the fields of the n slots that have a point; x, y and z
+                    in m, in the sensor's axes, without the motion that `compensate` undoes
+        labels      int64, (n,): the field `label` of these slots
         boxes       float32, (k, 7): centre x, y, z, length, width, height in m and yaw in rad of the
-                    objects with points, in the sensor's axes; they hold these points
-        box_labels  int64, (k,): their labels; the names are in Dataset.labels
-        source      index of the recording
+                    k objects with points, in the sensor's axes; each box encloses its object's points
+        box_labels  int64, (k,): the labels of these objects; Dataset.labels has the names
+        source      index of the recording in Dataset.paths
         frame       index of the frame in its run
 
     `labels` is absent where a recording has none. Samples differ in their numbers of points and
-    boxes: docs/python.md shows how torch's DataLoader makes batches of them.
+    boxes: docs/python.md shows how torch's DataLoader makes batches of them. Raises InputError if a
+    source cannot be read, or has no such split or sensor.
     """
 
     def __init__(self,
@@ -98,19 +102,20 @@ class Dataset:
                  transform: Callable[[Sample], Any] | None = None) -> None:
         """sources: data sets of `railcast-generate dataset`, or what railcast.open() reads, captures excepted.
 
-        split: the part of data sets, such as "train"; None = all of it.
-        sensor: the name of the sensor where data sets have several; None = the frames of all.
-        fields: the columns of `points`.
-        compensate: the motion during a scan that is undone in x, y and z. Boxes go with it.
-            "all": that of the sensor and of the objects. Points and boxes are of one instant, the stamp.
-            "sensor": the sensor's alone, as a vehicle can that knows its own motion. The points of a
-                moving object are spread over its way while it was scanned; its box is where it was at
-                their mean time.
-            "none": nothing. Points are as they were measured; boxes are where the objects were at the
+        split: the part of a data set, such as "train"; None = all parts.
+        sensor: the name of one sensor of a data set that has several; None = the frames of all sensors.
+        fields: the columns of `points`, names of fields (docs/files.md).
+        compensate: the motion during a scan that is undone in x, y and z, and for which boxes are placed.
+            "all": the motion of the sensor and of the objects. Points and boxes are those of one instant,
+                the stamp.
+            "sensor": the sensor's motion alone, which a vehicle knows. The points of a moving object are
+                spread over its path while it was scanned; its box is where it was at the mean time of these
+                points.
+            "none": no motion. Points are as they were measured; boxes are where the objects were at the
                 mean time of their points, in the axes that the sensor had at that time.
-            KITTI's clouds have the sensor's motion undone and no times: for them it is always "sensor".
-            Other fields are as measured in any case, also range_m.
-        transform: called with each sample; what it returns takes its place.
+            KITTI's clouds come with the sensor's motion undone and without times: "sensor" always holds for them.
+            All other fields, also range_m, are as measured.
+        transform: called with each sample; its result is returned instead of the sample.
         """
         found = [run for source in sources for run in recordings_of(os.fspath(source), split, sensor)]
         self.paths = [path for path, _ in found]
@@ -141,7 +146,7 @@ class Dataset:
 
     @property
     def labels(self) -> dict[str, int]:
-        """Ids of labels by name, those of the first recording."""
+        """The ids of labels by name, from the first recording; empty if there is none."""
         return self._recording(0).labels if self.paths else {}
 
     def _recording(self, source: int) -> Recording:
