@@ -28,8 +28,8 @@ GAUGE_BOTTOM_M = 0.35
 GAUGE_TOP_M = 4.5
 
 OBSTACLE_LENGTH_M = 1.0  # Points closer than this along the track belong to one object.
-# Raindrops and snowflakes are scattered: they return less than this share of the points that even a
-# small object would.
+# A cluster is an object if it has LEAST_SHARE of the points that a face of SMALLEST_M2 returns at its
+# distance. Raindrops and snowflakes are scattered and have fewer.
 SMALLEST_M2 = 0.25
 LEAST_SHARE = 0.3
 # The echoes of dense fog lie within 15 m of a sensor like this one, so new obstacles are not
@@ -42,7 +42,7 @@ RETRY_S = 0.5
 
 
 class Frame:
-    """The part of a frame that has arrived: points as (x, y, z)."""
+    """The part of a frame that has arrived: points as (x, y, z), m. head: as read_datagram() returns it."""
 
     def __init__(self, head):
         self.run, self.number, self.num_packets = head[4], head[7], head[9]
@@ -166,14 +166,14 @@ class Train:
 
 
 def points_wanted(distance_m, options):
-    """Points that make an object: a share of those that a small one would return at most."""
+    """Least number of points of an object at a distance: a share of what a small one can return."""
     side_rad = math.radians(options.resolution)
     hits = SMALLEST_M2 / (max(distance_m, 1.0) * side_rad) ** 2
     return max(options.min_points, math.ceil(LEAST_SHARE * hits))
 
 
 def things_ahead(points, options):
-    """Distances ahead of the train's front at which enough points cluster in the gauge."""
+    """Distances in m ahead of the train's front at which enough points cluster in the gauge, rising."""
     along = sorted(x - options.front for x, y, z in points
                    if x > options.front and abs(y) < GAUGE_HALF_WIDTH_M
                    and GAUGE_BOTTOM_M < z < GAUGE_TOP_M)
@@ -193,7 +193,7 @@ class Lookout:
         self.seen = collections.deque(maxlen=min_frames)
 
     def nearest(self, places_m):
-        """The nearest of these positions that was occupied in all recent frames, or None."""
+        """The nearest of these positions, rising, that was occupied in all recent frames, or None."""
         self.seen.append(places_m)
         if len(self.seen) < self.seen.maxlen:
             return None
@@ -242,7 +242,7 @@ class Drive:
             places_m = [place_m for place_m in places_m
                         if place_m - self.travelled_m > NEAREST_M]
         elif self.obstacle_at_m - self.travelled_m < NEAREST_M:
-            return  # Nor would it be after a collision: the sensor sees the obstacle's far side.
+            return  # Too near; after a collision, the sensor would see the obstacle's far side.
         else:
             # Once the train stands, raindrops and fog keep their positions, too, so only points
             # near the obstacle count.
@@ -312,7 +312,7 @@ def main():
 
 
 def drive_on_sight(train, options):
-    """Drives, prints what came of it, and returns the exit status."""
+    """Drives, prints the result, and returns the exit status: 0 if a gap is left, else 1."""
     drive = Drive(train, options)
     if not drive.run():
         print(f"no obstacle within {drive.travelled_m:.0f} m")

@@ -21,7 +21,7 @@ from sensor_msgs.msg import PointCloud2
 
 from brake_client import PATIENCE_S, RETRY_S, add_lookout_options, drive_on_sight
 
-DEPTH = 20  # As the simulation's own, which is reliable, too.
+DEPTH = 20  # Of queues, as the simulation's; writers and readers are reliable.
 
 
 class Frame:
@@ -41,32 +41,32 @@ class Frame:
 
 
 class Train:
-    """The simulated train, as brake_client.Drive knows it."""
+    """The simulated train, with all that brake_client.Drive uses of one."""
 
     def __init__(self, node, options):
         self.node = node
-        self.num_lost = 0  # None: writers are reliable.
+        self.num_lost = 0  # Always, since writers are reliable.
         self.clouds, self.odometry = collections.deque(), {}
-        # Clouds last: in lockstep no frame comes before somebody reads them.
+        # Clouds last: in lockstep, the first frame comes as soon as somebody reads them.
         node.create_subscription(Odometry, "/odometry", self.take_odometry, DEPTH)
         node.create_subscription(PointCloud2, options.points, self.clouds.append, DEPTH)
         self.brakes = node.create_publisher(TwistStamped, options.brake, DEPTH)
         self.steps = node.create_publisher(Time, options.step, DEPTH) if options.step else None
 
     def brake(self):
-        self.brakes.publish(TwistStamped())  # To a standstill.
+        self.brakes.publish(TwistStamped())  # A speed of 0: brake to a standstill.
 
     def take_odometry(self, odometry):
         stamp = odometry.header.stamp
         self.odometry[stamp.sec, stamp.nanosec] = odometry
 
     def frames(self):
-        done = Time(sec=-1)  # Nothing yet.
+        done = Time(sec=-1)  # No frame yet.
         end_s = time.monotonic() + PATIENCE_S
         while time.monotonic() < end_s:
             if self.steps is not None:
-                # Told again until a frame comes: at first nobody may hear it yet, and twice does
-                # no harm.
+                # Published again until a frame comes: at first nobody may be listening, and a
+                # repeated step does no harm.
                 self.steps.publish(done)
             again_s = time.monotonic() + RETRY_S
             while not self.has_frame() and time.monotonic() < again_s:

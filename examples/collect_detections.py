@@ -16,7 +16,7 @@ import time
 
 from receive_stream import HOLD_S, listener_at, place_of
 
-PATIENCE_S = 0.02  # The longest time until it is noticed that the run was stopped.
+PATIENCE_S = 0.02  # Seconds between checks whether the program was stopped.
 CONTROLS = {chr(code) for code in (*range(32), 127)}
 MOST_SHOWN = 60  # Characters of a faulty value.
 
@@ -63,7 +63,7 @@ def fault(place, rule, value):
 
 
 def faults_of(thing, keys, place):
-    """What is wrong with an object of JSON."""
+    """Yields the faults of a JSON object: unknown keys, and values against the rules in `keys`."""
     if not isinstance(thing, dict):
         yield fault(f"{place}: " if place else "", "must be an object", thing)
         return
@@ -75,7 +75,7 @@ def faults_of(thing, keys, place):
 
 
 def faults_of_line(line):
-    """What is wrong with a line, so that `evaluate` would refuse the file."""
+    """Yields the faults of a line for which `evaluate` would refuse the file."""
     yield from faults_of(line, LINE, "")
     if not isinstance(line, dict):
         return
@@ -118,7 +118,7 @@ def frame_of(datagram, origin):
 
 
 class Lines:
-    """Lines by frame, each of which is appended to FILE.part as it comes, so that it is there however this ends."""
+    """Lines by frame. Each is appended to FILE.part as it comes, so that none is lost if the program is killed."""
 
     def __init__(self, file):
         self.file = os.path.realpath(file)
@@ -126,17 +126,17 @@ class Lines:
         if os.path.exists(self.file) and not os.path.isfile(self.file):
             raise ValueError(f"{file}: must be a regular file")
         try:
-            # That it can be written is to be known before anything is sent.
+            # Fail before anything is sent if the file cannot be written.
             with open(self.part, "xb"):
                 os.remove(self.part)
         except FileExistsError as reason:
             raise ValueError(f"{self.part}: holds the lines of a collection that was killed; move it away") from reason
         self.lines = {}
-        self.written = None  # From the first line on.
+        self.written = None  # FILE.part, open from the first line on.
         self.num_repeated = 0
 
     def take(self, datagram, origin):
-        """Takes a datagram. The same line again, which a network may deliver, changes nothing."""
+        """Takes a datagram. A line that a network delivers twice is only counted. Raises ValueError if it is faulty."""
         line, frame = frame_of(datagram, origin)
         known = self.lines.setdefault(frame, line)
         if known is not line:
@@ -168,7 +168,7 @@ class Lines:
 
 
 class Senders:
-    """Which sender is listened to: the first one that is heard, until it has been silent for a while."""
+    """The sender that is followed: the first one heard, until it has been silent for HOLD_S."""
 
     def __init__(self, wanted):
         self.wanted = wanted  # Host and port, 0 for any port; None for any sender.
@@ -176,7 +176,7 @@ class Senders:
         self.num_others, self.last_other = 0, None
 
     def drops(self, origin):
-        """Whether a datagram of this origin has no effect, but that it is counted."""
+        """Whether datagrams of this origin are dropped; if so, counts one."""
         is_wanted = self.wanted is None or self.wanted in (origin, (origin[0], 0))
         if is_wanted and (origin == self.followed or time.monotonic() >= self.heard_s + HOLD_S):
             return False
@@ -204,7 +204,7 @@ def collect(listener, senders, lines, options):
     is_over = False
     while len(lines.lines) < options.frames:
         is_over = is_over or signals or time.monotonic() >= end_s
-        # What had arrived by then is still taken.
+        # Datagrams that had arrived by then are still taken.
         if not select.select([listener], [], [], 0 if is_over else PATIENCE_S)[0]:
             if is_over:
                 return
@@ -216,7 +216,7 @@ def collect(listener, senders, lines, options):
 
 
 def sender_named(text, family):
-    """The host and port of HOST or HOST:PORT, as datagrams have them; 0 for any port."""
+    """The host and port of HOST or HOST:PORT, as recvfrom() returns them; port 0 stands for any."""
     host, port = text, 0
     if "]:" in text or text.count(":") == 1:
         host, _, port = text.rpartition(":")
@@ -235,7 +235,7 @@ def positive(kind):
 
 
 def run(options):
-    """Collects, says what came of it, and returns the faults."""
+    """Collects, prints a summary, and returns the faults."""
     lines = Lines(options.out)
     try:
         listener = listener_at(options.at)

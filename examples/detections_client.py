@@ -20,7 +20,7 @@ LEAST_SIDE_M = 0.1  # A line of points has no height.
 
 
 def detect(points):
-    """The boxes of a frame: one around the nearest points in the gauge, or none."""
+    """The boxes of a frame with points (x, y, z) in m: one around the nearest points in the gauge, or none."""
     ahead = sorted(point for point in points if point[0] > NEAREST_M and abs(point[1]) < GAUGE_HALF_WIDTH_M
                    and GAUGE_BOTTOM_M < point[2] < GAUGE_TOP_M)
     near = [point for point in ahead if point[0] < ahead[0][0] + OBSTACLE_LENGTH_M]

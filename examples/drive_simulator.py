@@ -1,4 +1,4 @@
-"""Shows what a simulator tells of a frame besides its points, and changes its run.
+"""Shows what a simulator knows of a frame besides its points, and changes weather, objects and speed.
 
 Run in railcast's folder: PYTHONPATH=build/release/python python3 examples/drive_simulator.py
 """

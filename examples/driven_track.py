@@ -31,7 +31,7 @@ rises_m, runs_m = np.diff(axis_m[:, 2]), np.hypot(*np.diff(axis_m[:, :2], axis=0
 chainages_m = np.concatenate([[0.0], np.cumsum(runs_m)[:-1]])
 json.dump({
     "version": 1,
-    "file": str(MINIMAL),  # Only its track is another.
+    "file": str(MINIMAL),  # All but vehicle and track is taken from it.
     "vehicle": {"start_s_m": 0},
     "world": {"alignment": {"course": {"type": "spline", "points_m": axis_m[:, :2].round(4).tolist()},
                             "origin_m": [0, 0, round(float(axis_m[0, 2]), 4)],

@@ -1,4 +1,5 @@
-// engine_axes.c: checks the table of axes. Turning a vector and converting it must commute.
+// engine_axes.c: checks the table of axes in docs/engine.md: to rotate a vector and then convert it
+// must give the same as to convert both and then rotate.
 #include <math.h>
 #include <stdio.h>
 
@@ -27,7 +28,7 @@ static Quaternion Turned(Quaternion q, Quaternion v) {
   return Product(Product(q, v), (Quaternion){-q.x, -q.y, -q.z, q.w});
 }
 
-// How far the two orders are apart, for a rotation and a vector in general position.
+// The difference between these two orders, for a rotation and a vector in general position.
 static double Gap(Quaternion vector(Quaternion), Quaternion rotation(Quaternion)) {
   const Quaternion q = {0.1, -0.5, 0.7, 0.5}, v = {3, 5, 7, 0};  // |q| = 1
   const Quaternion a = vector(Turned(q, v)), b = Turned(rotation(q), vector(v));

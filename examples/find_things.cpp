@@ -54,7 +54,7 @@ Labelled FirstOfStream(const std::string& at) {
   return cloud;
 }
 
-/// The points that are there, one for each cell of 0.2 m.
+/// The points, thinned to one for each cell of 0.2 m.
 Cloud::Ptr Thinned(const Labelled& labelled) {
   const Cloud::Ptr all(new Cloud), thinned(new Cloud);
   pcl::copyPointCloud(labelled, *all);

@@ -56,13 +56,13 @@ def insert(database, table, *values):
 
 
 def frame_lines(folder):
-    """The lines that say what files each frame of a sequence has; of an insertion they stand beside its recording."""
+    """The lines that list the files of each frame of a sequence; of an insertion, in the folder above its recording."""
     own = folder / "frames.jsonl"
     return lines_of(own if own.exists() else folder.parent / "insert.jsonl")
 
 
 def add_frame(database, frame, sequence, index, files):
-    """Adds a frame from its line of the index. `files` is what its folder says of its files, by name."""
+    """Adds a frame from its line of the index. `files`: by name, the files that its folder's lines list for it."""
     insert(database, "frames", frame, sequence, *(index[key] for key in ("frame", "stamp_ns", "vehicle_s_m",
                                                                        "vehicle_speed_mps", "points")))
     for name in index["files"]:
@@ -105,7 +105,7 @@ def fill(database, folder):
 
 
 def make(folder):
-    """Makes the database under another name until it is whole."""
+    """Makes the database, which has the name index.sqlite.part until it is complete."""
     file = folder / "index.sqlite"
     if file.exists():
         raise FileExistsError(f"{file}: is there; remove it to make it anew")

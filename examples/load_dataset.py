@@ -11,6 +11,7 @@ import railcast
 
 
 def collate(samples):
+    """Samples as one batch: their arrays end to end, and the index of the sample of each point and box."""
     batch = {name: np.concatenate([sample[name] for sample in samples])
              for name in ("points", "labels", "boxes", "box_labels")}
     for name in ("points", "boxes"):

@@ -2,9 +2,9 @@
 // behind it.
 //
 // The effect changes the frame that the simulator has made: a frame says with which power each
-// point was received, as a multiple of the detection threshold. What it cannot do is to change the
-// echoes before they are detected: such an effect has a row in the table of railcast's own
-// (CONTRIBUTING.md, "an effect").
+// point was received, as a multiple of the detection threshold. It cannot change the echoes before
+// they are detected: an effect that does so has to be added to railcast itself (CONTRIBUTING.md,
+// "an effect").
 #include <railcast/railcast.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ struct Exhaust {
   float extinction_per_m = 1.0F;
 };
 
-// How far a beam runs inside of the ball before it meets the point.
+// Length of a beam inside the ball of exhaust before it reaches the point.
 float LengthInside_m(const Exhaust& exhaust, const Eigen::Vector3f& point_m) {
   const float range_m = point_m.norm();
   const float nearest_m = exhaust.center_m.dot(point_m) / range_m;
@@ -31,8 +31,8 @@ float LengthInside_m(const Exhaust& exhaust, const Eigen::Vector3f& point_m) {
   return std::max(0.0F, end_m - std::max(0.0F, nearest_m - half_m));
 }
 
-// The air takes its share on the way there and back (Beer and Lambert). Needs points in the
-// sensor's axes and one return per firing, both of which are the default.
+// Dims the light on its way there and back (law of Beer and Lambert). Needs points in the sensor's
+// axes and one return per firing, both of which are the default.
 void Apply(const Exhaust& exhaust, railcast::Frame& frame) {
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     if (!railcast::HasPoint(frame.outcome[slot])) continue;

@@ -1,4 +1,4 @@
-// own_ray_caster.cpp: the same wall, found by the host program.
+// own_ray_caster.cpp: scans the wall of own_world.cpp, but the program itself finds the hits.
 #include <railcast/railcast.h>
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// own_world.cpp: scans a wall across the way, far wider and higher than the field of view.
+// own_world.cpp: scans a wall 40 m ahead that is far wider and higher than the field of view.
 #include <railcast/railcast.h>
 
 #include <cmath>

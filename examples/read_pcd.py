@@ -1,13 +1,14 @@
-"""Reads a PCD file of railcast, binary or compressed, with numpy alone, in the folder of a run `out`."""
+"""Reads a PCD file of railcast, binary or compressed, with numpy alone, from a run in the folder `out`."""
 
 import numpy as np
 
 
 def unpack_lzf(raw):
+    """The bytes that were compressed by LZF."""
     out, at = bytearray(), 0
     while at < len(raw):
         code, at = raw[at], at + 1
-        if code < 32:  # That many bytes as they are, and one more.
+        if code < 32:  # code + 1 bytes follow as they are.
             out += raw[at:at + code + 1]
             at += code + 1
             continue
@@ -15,12 +16,13 @@ def unpack_lzf(raw):
         if length == 7:
             length, at = length + raw[at], at + 1
         begin, at = len(out) - ((code & 31) << 8) - raw[at] - 1, at + 1
-        piece = out[begin:begin + length + 2]  # Shorter where it reaches into what it makes.
+        piece = out[begin:begin + length + 2]  # Shorter if the copy overlaps its own output.
         out += (piece * (length + 2))[:length + 2]
     return bytes(out)
 
 
 def read_pcd(path):
+    """The points as a structured array of shape (HEIGHT, WIDTH); slots without a point have NaN in x, y, z."""
     raw = open(path, "rb").read()
     end = raw.index(b"\n", raw.index(b"\nDATA binary") + 1) + 1
     head = dict(line.split(" ", 1) for line in raw[:end].decode().splitlines() if line[0] != "#")
@@ -41,5 +43,5 @@ if __name__ == "__main__":
     frame = read_pcd("out/frames/000000.pcd")
     points = frame[~np.isnan(frame["x"])]
     print(frame.shape, len(points), np.unique(points["label"], return_counts=True))
-    lost = frame[frame["outcome"] == 3]  # below_threshold: what, and how far?
+    lost = frame[frame["outcome"] == 3]  # 3: below_threshold
     print(len(lost), np.median(lost["true_range_m"]))

@@ -15,7 +15,7 @@ HEADER = struct.Struct("<4sBBHIIqHHIIII7d8d")  # The table in docs/stream.md, in
 
 
 def read_datagram(datagram):
-    """Header and piece of the JPEG file. Foreign datagrams raise one of the errors caught below."""
+    """Header and piece of the JPEG file. Other datagrams raise ValueError or struct.error."""
     crc = zlib.crc32(datagram[:-4]).to_bytes(4, "little")
     if datagram[:6] != b"RCSI\x01\x01" or datagram[-4:] != crc:
         raise ValueError("another protocol, or damaged")
@@ -41,7 +41,7 @@ def main():
         (_, _, _, _, run, frame, stamp_ns, _, num_packets, num_bytes, first, width,
          height) = head[:13]
         if run < current[0]:
-            continue  # On its way since before a restart.
+            continue  # Sent before the sender restarted.
         if first_run is None:
             first_run = run
         if (run, frame) != current:

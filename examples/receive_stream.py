@@ -12,7 +12,7 @@ HOLD_S = 3.0  # Seconds of silence after which another sender is accepted.
 
 
 def read_datagram(datagram):
-    """Header, field names, points. Foreign datagrams raise one of the errors caught below."""
+    """Header, field names, points. Other datagrams raise one of the errors that main() catches."""
     crc = zlib.crc32(datagram[:-4]).to_bytes(4, "little")
     if datagram[:5] != b"RCST\x01" or datagram[-4:] != crc:
         raise ValueError("another protocol, or damaged")
