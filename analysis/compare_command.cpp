@@ -153,13 +153,12 @@ void AddAblationOptions(ProgramOptions& compare, CompareOptions& options) {
       .Needs(ablate);
   compare.AddOption(
       "--sensor", options.sensor,
-      "Of a scenario with several sensors, the name of one; default: all, with a report "
-      "for each in OUT/NAME. Of captures that hold several, ADDRESS or ADDRESS:PORT of "
-      "one, which is needed");
+      "Name of one of a scenario's sensors; default: all, with a report for each in OUT/NAME. "
+      "Required for captures that hold several sensors: ADDRESS or ADDRESS:PORT of one");
   compare
       .AddFlag("--all-effects", options.takes_all_effects,
-               "Study those, too, that do not go together with the scenario's effects, each on the "
-               "first rung that has it")
+               "Also study effects that exclude those of the scenario, each on the first rung "
+               "that has it")
       .Needs(ablate);
 }
 
@@ -190,8 +189,8 @@ void AddCompare(ProgramOptions& app, ProgramCommand& command) {
                  "for precision, recall and F-score")
       .ShowDefault();
   compare.AddFlag("--register", options->registers,
-                  "Lay each cloud of the second recording on its partner first, from where it is, "
-                  "and say how far it moved and what remains");
+                  "First register each cloud of the second recording with its partner, starting "
+                  "from its recorded pose, and report how far it moved and the residual");
   AddThreads(compare, options->num_threads);
   AddAblationOptions(compare, *options);
   AddReportOptions(compare, options->output);

@@ -268,8 +268,8 @@ void AddStats(ProgramOptions& app, ProgramCommand& command) {
           "where it holds several")
       .Check(NonEmpty());
   stats.AddOption("--track", options->track,
-                  "Scenario whose vehicle is on the recording's track, in the world of the "
-                  "recording's poses: counts the points in the vehicle's outline along it");
+                  "Scenario with the recording's track, in the world of the recording's poses: "
+                  "count the points in its vehicle's outline along this track");
   AddThreads(stats, options->num_threads);
   AddReportOptions(stats, options->output);
   stats.WhenParsed([&command, options] {

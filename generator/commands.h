@@ -38,7 +38,8 @@ inline constexpr auto kOwnPrograms = std::to_array<OwnProgram>(
       "to continue an interrupted run",
       "railcast-recordings", "dataset"},
      {"merge",
-      "Make one data set of the folders of all its shards, with the bytes of a run without shards",
+      "Make one data set of the folders of all its shards, byte for byte as a run without shards "
+      "makes it",
       "railcast-recordings", "dataset"},
      {"survey", "Make the scene of a scenario from recordings with poses or from survey clouds",
       "railcast-recordings", "survey"},

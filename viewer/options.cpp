@@ -126,7 +126,7 @@ void AddSourceOptions(ProgramOptions& app, ViewOptions& options, RawOptions& raw
       .Check(Named(Strings(kLayoutNames)))
       .ShowDefault();
   app.AddOption("--scenario", options.scenario,
-                "Scenario that a stream or a file was made of: it gives the labels' names, the "
+                "Scenario that a stream or file was made from: it gives the labels' names, the "
                 "track and the surfaces");
   app.AddOption(
       "--sensor", options.sensor,
@@ -148,7 +148,9 @@ void AddLookOptions(ProgramOptions& app, ViewOptions& options, RawOptions& raw) 
   app.AddOption("--color-by", options.choices.color_by,
                 "Field to colour the points by: a field of railcast or any other that the cloud "
                 "has. Default: label where there is one, else height");
-  app.AddOption("--color-map", raw.color_map, "Colour map for amounts; default: viridis")
+  app.AddOption("--color-map", raw.color_map,
+                "Colour map for continuous values; default: "
+                "viridis")
       .Check(Named(Strings(kColorMapNames)));
   app.AddOption("--color-range", raw.color_range,
                 "The two ends of the colour scale; default: the 1st and 99th percentile of the "
@@ -157,7 +159,7 @@ void AddLookOptions(ProgramOptions& app, ViewOptions& options, RawOptions& raw) 
       .SeparatedBy(',')
       .TakesOneWord();
   app.AddOption("--point-size", options.look.point_size_px,
-                "Size of a point in pixels; default: by the height of the picture")
+                "Size of a point in pixels; default: in proportion to the height of the picture")
       .Check(Whole({1, kMaxPointSize_px}));
   app.AddOption("--background", raw.background).Check(Named(BackgroundNames())).ShowDefault();
   app.AddOption("--accumulate", options.choices.num_accumulated,

@@ -121,7 +121,7 @@ KeptFrontier::KeptFrontier(fs::path folder, const std::string& identity)
     WriteFileWhole(file, identity + "\n");
   } else if (ReadFileWhole(file) != identity + "\n") {
     throw InputError(ShownPath(folder_) +
-                     ": must be what the same command has left; remove it to begin anew");
+                     ": must be what the same command has written; remove it to start anew");
   }
 }
 

@@ -190,7 +190,7 @@ Certifier::Certifier(const ScenarioSpec& scenario,
       rungs_(RungsBeside(scenario, own)) {
   if (own.effects.dense_footprint) {
     throw InputError(
-        "--certify: must be at another fidelity than reference, which it compares with");
+        "--certify: must not be given at fidelity reference, against which it compares");
   }
   num_expected_ = NumCertified(scenario, own, num_firings, cost_share);
   probability_per_scatter_ = num_expected_ / static_cast<double>(num_firings) / kMeanScatter;

@@ -110,8 +110,9 @@ void AddIsa(ProgramOptions& command, std::string& isa);
 inline void AddSourceChoice(ProgramOptions& command, SourceChoice& choice) {
   command
       .AddOption("--kitti-columns", choice.kitti_columns,
-                 "Numbers of a point in sources that are .bin files: nuscenes, waymo, float64, or "
-                 "how many float32, x y z intensity first; default: the four of KITTI")
+                 "Columns of points in .bin files: nuscenes, waymo, float64, or the number of "
+                 "float32 columns, of which x y z intensity come first; default: the four of "
+                 "KITTI")
       .Check(NonEmpty());
   command
       .AddOption("--topic", choice.topic,

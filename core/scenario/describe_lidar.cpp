@@ -36,8 +36,9 @@ void Describe(Archive& a, SpinningSpec& s) {
              "Where the beams leave off the axis: outwards at the rotor's azimuth, up.",
              Within(-1, 1));
   a.Optional("azimuth_window_deg", s.azimuth_window_deg,
-             "From which to which azimuth of the rotor firing cycles begin, in the sense of "
-             "rotation; over 0 where the first is the greater. All others are not fired.",
+             "First and last azimuth of the rotor at which firing cycles begin, in the sense of "
+             "rotation; the window crosses 0 if the first is the greater. No other cycles are "
+             "fired.",
              Within(0, 360));
 }
 

@@ -190,8 +190,8 @@ void AddCheck(ProgramOptions& app, ProgramCommand& command) {
       .Check(NonEmpty());
   check
       .AddOption("--certify", options->certify,
-                 "Share of the frames' time, such as 1%: also tells how well a certificate of that "
-                 "share would know a run, and the numerical error of three frames")
+                 "Share of the frames' time, such as 1%: also print how precise a certificate of "
+                 "that share would be, and the numerical error of three frames")
       .ShowDefault();
   check.WhenParsed([&app, &command, options] {
     options->is_verbose = app.is_given("--verbose");

@@ -88,16 +88,16 @@ void AddStreamOptions(ProgramOptions& stream, StreamOptions& options) {
   // group; where none has, they go out.
   stream
       .AddOption("--multicast-hops", options.multicast_hops,
-                 "Networks on which what is sent to multicast groups may be: 1 = no router passes "
-                 "it on. What shall not leave this machine is sent by its interface lo")
+                 "How many networks multicast datagrams may cross: 1 = no router forwards them. "
+                 "To keep them on this machine, send them by its interface lo")
       .Check(Whole({1, 255}))
       .ShowDefault();
   stream
       .AddOption(
           "--clock", options.clock,
-          "What stamps state. simulated: simulation time, which begins with the year 2000 "
-          "in packets of real sensors, else with 0; utc: the time of day; tai: the same, but "
-          "of sensors that PTP synchronises atomic time, which is 37 s ahead")
+          "Clock of the stamps. simulated: simulation time, which begins with the year 2000 in "
+          "packets of real sensors, else with 0; utc: the time of day; tai: the same, but atomic "
+          "time, 37 s ahead, for sensors that PTP synchronises")
       .Check(Named(NamesOf<StampClock>()))
       .ShowDefault();
   if (const auto& packets = LiveExtras::Get().packets) packets->add_options(stream, options);

@@ -19,9 +19,9 @@ void AddRunChoices(ProgramOptions& command, RunChoices& choices) {
       .ShowDefault();
   command
       .AddOption("--fields", choices.fields,
-                 "Fields to write, separated by commas, or all; for mcap and rosbag2 also a layout "
-                 "of points: railcast, velodyne, ouster, hesai, livox, aeva or autoware; those of "
-                 "the track, such as in_gauge, are not among all")
+                 "Fields to write, separated by commas, or all, which leaves out those of the "
+                 "track, such as in_gauge; for mcap and rosbag2 also a layout of points: "
+                 "railcast, velodyne, ouster, hesai, livox, aeva or autoware")
       .ShowDefault();
   command.AddFlag("--merged", choices.is_merged,
                   "Also write the clouds of all sensors together, in the vehicle's axes, with "
@@ -34,8 +34,8 @@ void AddRunChoices(ProgramOptions& command, RunChoices& choices) {
 Option AddCertify(ProgramOptions& command, std::string& certify) {
   return command
       .AddOption("--certify", certify,
-                 "Share of the frames' time, such as 1%, for making some of their firings anew on "
-                 "rung reference, which tells the run's numerical error; or off")
+                 "Share of the frames' time, such as 1%, in which some firings are simulated "
+                 "again on rung reference to estimate the run's numerical error; or off")
       .ShowDefault();
 }
 

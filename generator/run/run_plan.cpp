@@ -119,7 +119,7 @@ std::uint32_t LastFrameOf(const SequenceSpec& spec, const ScanPattern& pattern) 
   const std::uint64_t last =
       spec.start_frame + std::uint64_t{spec.num_frames - 1} * std::uint64_t{spec.stride};
   if (last > kMost) {
-    throw InputError("--start-frame, --frames, --stride: must lead to no frame after " +
+    throw InputError("--start-frame, --frames, --stride: must not lead beyond frame " +
                      std::to_string(kMost) + " (got frame " + std::to_string(last) + ")");
   }
   const auto last_frame = static_cast<std::uint32_t>(last);
@@ -267,7 +267,7 @@ void SetFrames(const FrameMaker& maker, RunPlan& plan) {
 void CheckHasStamp(const std::string& option, const ScanPattern& pattern, std::uint32_t frame) {
   if (frame <= pattern.LastFrame()) return;
   std::string line = option;
-  line.append(": must lead to no frame after ").append(std::to_string(pattern.LastFrame()));
+  line.append(": must not lead beyond frame ").append(std::to_string(pattern.LastFrame()));
   line.append(", since the next begins after 292 years at ").append(NumberText(pattern.rate_hz));
   line.append(" Hz (got frame ").append(std::to_string(frame)).append(")");
   throw InputError(line);

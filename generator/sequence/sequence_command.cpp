@@ -162,9 +162,8 @@ void AddSequence(ProgramOptions& app, ProgramCommand& command) {
       .Required()
       .Check(NonEmpty());
   sequence
-      .AddOption(
-          "--frames", options->made.num_frames,
-          "Number of frames to make; other sensors than the first make those of the same time")
+      .AddOption("--frames", options->made.num_frames,
+                 "Number of frames of the first sensor; the other sensors cover the same time")
       .Check(Whole({1, kMaxFrame}))
       .ShowDefault();
   sequence.AddOption("--start-frame", options->made.start_frame, "Number of the first frame")
@@ -193,7 +192,8 @@ void AddSequence(ProgramOptions& app, ProgramCommand& command) {
   sequence
       .AddOption("--picture", options->picture,
                  "PNG file to draw the last frame into: its points in the colours of their "
-                 "labels, over what the scenario's camera sees, or one in the sensor's place")
+                 "labels, over the image of the scenario's camera, or of a camera at the sensor "
+                 "if it has none")
       .Check(NonEmpty());
   sequence.Footer(
       "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"

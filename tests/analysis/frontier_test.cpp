@@ -62,8 +62,9 @@ TEST(KeptFrontier, RefusesWhatAnotherRunHasLeftAndMakesAnewWhatIsDamaged) {
   const auto folder = directory.path() / "kept";
   const auto make = [] { return ExampleFrame(3); };
   static_cast<void>(KeptFrontier(folder, "a run").FrameOf(3, make));
-  EXPECT_EQ(MessageOf([&] { KeptFrontier(folder, "another run"); }),
-            folder.string() + ": must be what the same command has left; remove it to begin anew");
+  EXPECT_EQ(
+      MessageOf([&] { KeptFrontier(folder, "another run"); }),
+      folder.string() + ": must be what the same command has written; remove it to start anew");
   std::ofstream(folder / "frame_3", std::ios::app) << "more";
   int num_made = 0;
   const auto make_again = [&] {

@@ -76,7 +76,7 @@ TEST(CommandLine, RefusesFramesWhoseStampsDoNotFitInto64Bits) {
   text.replace(text.find("\"rate_hz\": 10"), 13, "\"rate_hz\": 0.01");
   WriteFileWhole(scenario, text);
   const std::string rule =
-      ": must lead to no frame after 92233720, since the next begins after 292 years at 0.01 Hz "
+      ": must not lead beyond frame 92233720, since the next begins after 292 years at 0.01 Hz "
       "(got frame ";
   EXPECT_THAT(Generate("trace " + scenario + " --frame 100000000 --firing 0"),
               ExitsWith(1, "--frame" + rule + "100000000)\n"));

@@ -38,7 +38,7 @@ void CheckOut(const fs::path& out, const fs::path& dataset) {
   // People write files of this name, too.
   const fs::path readme = out / kCardFile;
   if (fs::exists(readme) && !ReadFileWhole(readme).starts_with("# Data set ")) {
-    throw InputError(ShownPath(readme) + ": must be a card, which is replaced, or not be there");
+    throw InputError(ShownPath(readme) + ": must be absent or an earlier card, which is replaced");
   }
 }
 

@@ -127,25 +127,29 @@ void AddDetectorOptions(ProgramOptions& evaluate, EvaluateOptions& options) {
       "What your detector found in each run, in their order, instead of the reference detector: "
       "JSON lines or OpenLABEL (docs/evaluate.md)");
   evaluate
-      .AddOption("--min-score", options.spec.min_score, "Detections of a file below are left out")
+      .AddOption("--min-score", options.spec.min_score,
+                 "Leave out detections of a file with a "
+                 "lower score")
       .Check(Number({0.0, 1.0}))
       .Needs(detections)
       .ShowDefault();
   evaluate
       .AddOption("--latency-ms", options.latency_ms,
-                 "From a frame's stamp until its detections are known, where a file does not say")
+                 "Time from a frame's stamp until its detections are known, if their file does "
+                 "not state it")
       .Check(Number({0.0, 1e5}))
       .ShowDefault();
   ClusterDetectorSpec& clusters = options.spec.clusters;
   evaluate
       .AddOption("--min-height-m", clusters.min_height_m,
-                 "Reference detector: points lower over top of rail are track")
+                 "Reference detector: leave out points lower above top of rail as track")
       .Check(Number({0.0, 5.0}))
       .Excludes(detections)
       .ShowDefault();
   evaluate
       .AddOption("--min-distance-m", clusters.min_distance_m,
-                 "Reference detector: points nearer ahead of the sensor are rain and snow")
+                 "Reference detector: leave out points nearer ahead of the sensor as rain and "
+                 "snow")
       .Check(Number({0.0, 100.0}))
       .Excludes(detections)
       .ShowDefault();
@@ -176,10 +180,12 @@ void AddEvaluate(ProgramOptions& app, ProgramCommand& command) {
           .AddOption("--gauge-width-m", options->gauge_width_m,
                      "Width of the train's own gauge, instead of the vehicle's outline")
           .Check(Number({0.1, 10.0}));
-  const Option height =
-      evaluate.AddOption("--gauge-height-m", options->gauge_height_m, "Its height over top of rail")
-          .Check(Number({0.1, 10.0}))
-          .Needs(width);
+  const Option height = evaluate
+                            .AddOption("--gauge-height-m", options->gauge_height_m,
+                                       "Height of the train's own "
+                                       "gauge above top of rail")
+                            .Check(Number({0.1, 10.0}))
+                            .Needs(width);
   width.Needs(height);
   AddRuleOptions(evaluate, options->rule);
   AddReportOptions(evaluate, options->output);

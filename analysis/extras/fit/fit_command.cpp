@@ -153,8 +153,8 @@ int RunFit(const FitOptions& options, const std::string& command_line) {
 
 void AddKnowledgeOptions(ProgramOptions& fit, FitOptions& options) {
   fit.AddOption("--scenario", options.scenario,
-                "Scenario with the sensor of a recording that is no sequence, to be fitted: each "
-                "value is replayed as by preset, worse ones are not written");
+                "Scenario with the sensor to fit, for a recording that is no sequence: each "
+                "fitted value is replayed as by preset, and not written if it is worse");
   fit.AddOption("--rung", options.rung,
                 "Rung whose parameters to fit; default: the scenario's, else surface")
       .Check(Named({"plausibility", "surface"}));
@@ -169,7 +169,7 @@ void AddKnowledgeOptions(ProgramOptions& fit, FitOptions& options) {
                 "default: the scenario's")
       .Check(Number({0.1, 10'000.0}));
   fit.AddOption("--rain-rate-mmph", options.rain_rate_mmph,
-                "Rate of the rain in the recording: tells the dropout by rain from the sensor's "
+                "Rain rate in the recording, which separates dropout by rain from the sensor's "
                 "own, for rung plausibility")
       .Check(Number({1e-3, 5000.0}));
 }

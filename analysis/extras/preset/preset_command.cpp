@@ -61,11 +61,11 @@ void AddPreset(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<PresetOptions>();
   ProgramOptions preset = app.AddCommand(
       "preset",
-      "Say how a real sensor's recording shows surfaces and receiver, and compare it with what a "
-      "scenario's sensor measures on its planes");
+      "Estimate properties of receiver and surfaces from a real sensor's recording, and compare "
+      "it with what a scenario's sensor measures on its planes");
   preset
       .AddOption("SOURCE", options->source,
-                 "Capture or other recording of a sensor that stands, as grids")
+                 "Capture or other recording of a stationary sensor, with a row for each channel")
       .Required();
   AddSourceChoice(preset, options->choice);
   AddCaptureSensor(preset, options->choice.sensor);

@@ -64,7 +64,7 @@ void AddSight(ProgramOptions& app, ProgramCommand& command) {
       .AddOption("--range-m", options->spec.range_m,
                  "How far targets are sought; otherwise as far as the sensor's range")
       .Check(Number({20.0, 5000.0}));
-  sight.AddOption("--step-m", options->spec.step_m, "Way from one place to the next, at least")
+  sight.AddOption("--step-m", options->spec.step_m, "Least distance between consecutive places")
       .Check(Number({0.1, 1000.0}))
       .ShowDefault();
   AddBrakingOptions(sight, options->spec.braking);

@@ -157,22 +157,25 @@ void AddStudy(ProgramOptions& app, ProgramCommand& command) {
       "study",
       "Simulate the approaches that a recipe draws, and report with which probability objects in "
       "the way are detected at which distance");
-  study.AddOption("STUDY", options->study, "What is asked of which recipe (docs/study.md)")
+  study
+      .AddOption("STUDY", options->study,
+                 "Study file: the recipe and the question "
+                 "(docs/study.md)")
       .Required();
   AddReportOptions(study, options->output);
   AddTable(study, options->table);
-  const Option shard = study
-                           .AddOption("--shard", options->shard,
-                                      "Make every N-th approach only, the I-th of each N: I/N")
-                           .Check({ShardRule, ""});
+  const Option shard =
+      study
+          .AddOption("--shard", options->shard, "I/N: simulate only the I-th of every N approaches")
+          .Check({ShardRule, ""});
   study
       .AddOption("--shards", options->choices.shards,
                  "Folders of all shards, to report on them as one study")
       .Excludes(shard);
   study
       .AddOption("--certify", options->certify,
-                 "Share of the frames' time, such as 1%, for making some firings near the objects "
-                 "anew on rung reference, which tells the numerical error; or off")
+                 "Share of the frames' time, such as 1%, in which some firings near the objects "
+                 "are simulated again on rung reference to estimate the numerical error; or off")
       .ShowDefault();
   study.AddFlag("--rare", options->is_rare,
                 "Estimate how often something in the way is not detected in time, however rare");

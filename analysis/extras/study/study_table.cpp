@@ -105,8 +105,8 @@ std::string CountsText(const std::map<std::string, std::size_t>& num_by_words,
 void AddTable(ProgramOptions& command, std::vector<std::string>& factors) {
   command
       .AddOption("--table", factors,
-                 "Two or three factors of the table of verdicts: weather,target; default: those "
-                 "that matter most")
+                 "Two or three factors of the table of verdicts, such as weather,target; "
+                 "default: those that matter most")
       .SeparatedBy(',')
       .TakesOneWord();
 }

@@ -248,7 +248,7 @@ void Describe(Archive& a, Recipe& s) {
   const double last =
       s.warm_up_frames + (static_cast<double>(s.num_frames) - 1.0) * static_cast<double>(s.stride);
   a.Ensure({"", "num_frames", "stride", "warm_up_frames"}, last <= kMostFrame,
-           "must lead to no frame after 1000000000");
+           "must not lead beyond frame 1000000000");
   a.Optional("sensor", s.sensor,
              "Which sensor, where scenarios have several; absent = all of them.", NonEmptyString());
   a.Required("bases", s.bases, "Scenarios to draw from.", NonEmptyList());

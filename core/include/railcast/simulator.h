@@ -207,7 +207,8 @@ class Simulator {
   /// The firings of a frame whose beams may meet one of the given objects, with the simulator's own
   /// effects or those of any variant (UseVariants()): a superset of the firings that do meet one.
   /// @param objects As for ScanNearObjects().
-  /// @return Indices of their cells, row * columns + column, ascending: as ScanFirings() takes them.
+  /// @return Indices of their cells, row * columns + column, ascending, as ScanFirings() takes
+  /// them.
   [[nodiscard]] std::vector<std::uint32_t> FiringsNearObjects(
       BegunFrame& begun, std::span<const std::size_t> objects) const;
 

@@ -59,9 +59,9 @@ void AddTopicOptions(ProgramOptions& stream, StreamOptions& options) {
                    "With protocol ros2: topic of geometry_msgs/msg/TwistStamped on which to "
                    "receive commands, such as /brake; default: none");
   stream.AddOption("--step-topic", options.step_topic,
-                   "With protocol ros2 and --lockstep: topic of builtin_interfaces/msg/Time on "
-                   "which to receive the stamp of each frame that is done with, such as /step; "
-                   "the next frame waits for it");
+                   "With protocol ros2 and --lockstep: topic of builtin_interfaces/msg/Time, "
+                   "such as /step, on which to receive the stamp of each frame that has been "
+                   "processed; the next frame waits for it");
 }
 
 bool NamesLayout(const std::string& fields) {

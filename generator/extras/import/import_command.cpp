@@ -404,7 +404,7 @@ int RunImport(const ImportCommandOptions& options) {
             << MovedText(work.worlds) << LeftOutLinesText(left_out.lines) << "Wrote "
             << work.lines.size() << " lines to " << ShownPath(options.out) << '\n';
   if (!work.lines.empty()) return kExitSuccess;
-  throw InputError(ShownPath(options.map) + ": must have a line that can stand (got " +
+  throw InputError(ShownPath(options.map) + ": must have a line that can be built (got " +
                    std::to_string(left_out.lines.size()) + " left out, with the reasons in " +
                    ShownPath(options.out / "left_out.csv") + ")");
 }
@@ -456,7 +456,7 @@ void AddImport(ProgramOptions& app, ProgramCommand& command) {
       .Check(Number(kDegrees));
   subcommand.AddOption("--crs", options->crs,
                        "Coordinate system in metres for PROJ, such as EPSG:31256; default: a "
-                       "transverse Mercator about the middle of the map, without scale");
+                       "transverse Mercator about the middle of the map with scale 1");
   subcommand
       .AddOption("--min-length", options->min_length_m, "Leave out lines shorter than this, in m")
       .ShowDefault()

@@ -199,7 +199,7 @@ struct Inserter::Parts {
   void UseCertificates(const ScenarioSpec& scenario, double cost_share) {
     if (world->objects().empty()) {
       throw InputError(
-          "--certify: must be left out: the plan has no objects, which rungs differ in");
+          "--certify: must be off for a plan without objects, since nothing else is certified");
     }
     certifier.emplace(scenario, cost_share, spec.detector, *world);
     scan.UseVariants(certifier->certifier().variants());

@@ -36,8 +36,9 @@ void AddPacketOptions(ProgramOptions& stream, StreamOptions& options) {
       .Check(NonEmpty());
   stream
       .AddOption("--http", options.http,
-                 "With protocol ouster: HOST:PORT of this machine at which to answer what drivers "
-                 "ask a sensor; default: none; 127.0.0.1:8080 is for this machine only")
+                 "With protocol ouster: HOST:PORT of this machine at which to answer drivers' "
+                 "HTTP requests as the sensor does; default: none; 127.0.0.1:8080 is for this "
+                 "machine only")
       .Check(NonEmpty());
 }
 
@@ -76,7 +77,7 @@ void WriteCorrectionBeside(const SensorStreamSpec& stream, const LidarSpec& lida
   const std::string bytes = ReadFileWhole(std::get<FiringTableSpec>(lidar.scan.pattern).file);
   if (std::filesystem::exists(file) && ReadFileWhole(file) != bytes) {
     throw InputError(ShownPath(file) +
-                     ": must not be there, or be the scan's correction file, which is written "
+                     ": must be absent or the scan's correction file, which is written "
                      "beside the capture");
   }
   WriteFileWhole(file, bytes);
@@ -109,7 +110,7 @@ void WriteMetadataBeside(const SensorStreamSpec& stream, const LidarSpec& lidar)
       static_cast<void>(ReadOusterMetadata(file));
     } catch (const InputError&) {
       throw InputError(ShownPath(file) +
-                       ": must not be there, or be the metadata of an Ouster sensor, which are "
+                       ": must be absent or the metadata of an Ouster sensor, which are "
                        "written beside the capture");
     }
   }

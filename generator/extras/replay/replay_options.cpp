@@ -98,9 +98,9 @@ void AddReplayOptions(ProgramOptions& replay, ReplayOptions& options) {
       .TakesOneWord();
   replay
       .AddOption("--protocol", options.protocol,
-                 "packets: a sensor's packets as recorded; ros2: a bag's messages as recorded, or "
-                 "frames; railcast or a sensor's: frames; default: packets for captures, ros2 for "
-                 "bags, otherwise railcast")
+                 "packets: a capture's packets as recorded; ros2: a bag's messages as recorded, "
+                 "or frames of other recordings; railcast or the name of a sensor's protocol: "
+                 "frames; default: packets for captures, ros2 for bags, otherwise railcast")
       .Check(Named(ProtocolNames()));
   replay.AddOption("--fields", options.fields,
                    "Of frames with protocols railcast and ros2: fields to send, separated by "
@@ -129,7 +129,7 @@ void AddReplayOptions(ProgramOptions& replay, ReplayOptions& options) {
       .Check(Whole({1}));
   replay
       .AddOption("--clock", options.clock,
-                 "What stamps of frames state: the recorded times, or the time of day (utc)")
+                 "Clock of the frames' stamps: the recorded times, or the time of day (utc)")
       .Check(Named({"recorded", "utc"}))
       .ShowDefault();
   AddCommandOptions(replay, options);

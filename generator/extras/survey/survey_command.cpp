@@ -202,8 +202,8 @@ void AddSourceOptions(ProgramOptions& command, SurveyCommandOptions& options) {
       .Check(Number(kRange));
   command
       .AddOption("--white", source.white_intensity,
-                 "Recorded intensity of a white surface; default: 1, 255 in foreign clouds with "
-                 "more than 1, 65535 in LAS with more than 255")
+                 "Recorded intensity of a white surface; default: 1; 255 in foreign clouds with "
+                 "intensities above 1; 65535 in LAS with intensities above 255")
       .Check(Number({1e-6, 1e6}));
 }
 
@@ -222,22 +222,21 @@ void AddSurvey(ProgramOptions& app, ProgramCommand& command) {
       .Check(Number({0.005, 1.0}));
   survey
       .AddOption("--max-gap", options->made.surfels.max_gap_m,
-                 "Points farther apart than this, in m, have nothing between them")
+                 "Leave a hole between points farther apart than this, in m")
       .ShowDefault()
       .Check(Number({0.02, 5.0}));
   survey
       .AddOption("--surfel-size", options->made.surfels.size_factor,
-                 "Size of surfels as a multiple of what reaches half way to their neighbours")
+                 "Size of surfels as a multiple of half the distance to their neighbours")
       .ShowDefault()
       .Check(Number({0.2, 4.0}));
   survey.AddFlag("--keep-moving", options->made.keeps_moving,
-                 "Leave in what other frames' beams have passed through");
+                 "Keep points that other frames' beams have passed through");
   survey
       .AddOption(
           "--sensor-height", options->made.sensor_height_m,
           "Height of the sensor above top of rail, in m; default: that of the mount in "
-          "railcast's own recordings, else above the ground below the way, which must have been "
-          "seen")
+          "railcast's own recordings, else above the recorded ground below the sensor's path")
       .Check(Number({-100.0, 100.0}));
   survey.WhenParsed([&command, options] {
     command = [options](const std::string& /*all*/) {

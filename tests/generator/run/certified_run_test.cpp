@@ -98,7 +98,7 @@ TEST_F(CertifiedRun, RefusesSharesThatAreNoneAndTheReferenceItself) {
   }
   const Ended reference = Make("out", "--frames 1 --fidelity reference --certify 1%");
   EXPECT_EQ(reference.status, 1);
-  EXPECT_THAT(reference.said, HasSubstr("--certify: must be at another fidelity than reference"));
+  EXPECT_THAT(reference.said, HasSubstr("--certify: must not be given at fidelity reference"));
   EXPECT_FALSE(fs::exists(folder_.path() / "out/manifest.json"));
 }
 

@@ -243,7 +243,7 @@ std::optional<CutEnd> CutAt(const ByteFile& file, std::uint64_t offset) {
     if (num_bytes == kMagic.size()) return std::nullopt;
     std::uint64_t length{};
     FieldReader(file.Read(offset + 1, sizeof length))("length", length);
-    throw InputError(PlaceOf(file, offset) + "length: must end within the file, which has its end" +
+    throw InputError(PlaceOf(file, offset) + "length: must end within the file, which is complete" +
                      Got(length));
   }
   return CutEnd{offset, num_bytes};

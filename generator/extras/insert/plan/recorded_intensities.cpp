@@ -140,7 +140,7 @@ std::optional<RecordedIntensities> MeasureIntensities(const std::filesystem::pat
 std::string UseIntensities(const RecordedIntensities& recorded, ScenarioSpec& plan) {
   if (!recorded.why_not.empty()) {
     return "intensities of what is put in: noise and texture of the sensor's and the materials' "
-           "files, since the recording does not tell its own: " +
+           "files, since those of the recording are not known: " +
            recorded.why_not;
   }
   std::string used = recorded.wants_noise ? UseNoise(recorded, plan) : "";

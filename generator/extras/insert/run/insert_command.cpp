@@ -88,7 +88,7 @@ void AddInsert(ProgramOptions& app, ProgramCommand& command) {
           .ShowDefault();
   const Option points_alone =
       insert.AddFlag("--points-alone", choices.may_use_points_alone,
-                     "Take frames point by point where their firings cannot be found");
+                     "Treat frames point by point if their firings cannot be determined");
   const Option certify = AddCertify(insert, choices.certify);
   const Option threads = AddThreads(insert, choices.num_threads);
   const Option check =

@@ -114,7 +114,7 @@ TEST(CardCommand, ReplacesACardButNoOtherReadme) {
   const Ended run = Analyze(command);
   EXPECT_EQ(run.status, 1);
   EXPECT_EQ(run.said, (out / "README.md").string() +
-                          ": must be a card, which is replaced, or not be there\n");
+                          ": must be absent or an earlier card, which is replaced\n");
   EXPECT_EQ(ReadFileWhole(out / "README.md"), "My notes");
 }
 

@@ -169,7 +169,7 @@ TEST_F(ImportWithHeights, EndsWithAnErrorIfNoLineCanStand) {
   // Over the middle of the line, in each row.
   EXPECT_THAT(RunWithHeights(kMap, GridWith(" 335 336 337 ", " -32768 -32768 -32768 ")),
               ExitsWith(1, AllOf(HasSubstr("Wrote 0 lines to "),
-                                 HasSubstr("map.geojson: must have a line that can stand (got 1 "
+                                 HasSubstr("map.geojson: must have a line that can be built (got 1 "
                                            "left out, with the reasons in " +
                                            (out_ / "left_out.csv").string() + ")"))));
 }

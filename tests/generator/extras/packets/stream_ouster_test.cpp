@@ -211,7 +211,7 @@ TEST(StreamOuster, SaysWhatDoesNotGoTogether) {
   WriteFileWhole(other, "{}");
   EXPECT_EQ(fault(scenario + " --duration 1 --pcap " + (folder.path() / "mine.pcap").string()),
             other.string() +
-                ": must not be there, or be the metadata of an Ouster sensor, which are written "
+                ": must be absent or the metadata of an Ouster sensor, which are written "
                 "beside the capture\n");
   EXPECT_EQ(ReadFileWhole(other), "{}");
 }

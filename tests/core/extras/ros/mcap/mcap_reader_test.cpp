@@ -150,7 +150,7 @@ TEST_F(McapFile, IsRefusedIfARecordDoesNotFitIntoIt) {
   std::fill_n(whole.begin() + static_cast<std::ptrdiff_t>(footer), 20, '\0');
   EXPECT_EQ(MessageOf([&] { (void)Read(whole); }),
             "file: record at " + std::to_string(last) +
-                ": length: must end within the file, which has its end (got 1152921504606846976)");
+                ": length: must end within the file, which is complete (got 1152921504606846976)");
 }
 
 TEST_F(McapFile, IsReadOrRefusedWithALineWhateverByteIsDamaged) {

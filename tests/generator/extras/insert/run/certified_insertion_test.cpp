@@ -120,7 +120,7 @@ TEST_F(CertifiedInsertion, IsRefusedWhereThereIsNothingToCertify) {
   EXPECT_THAT(Insert("out", "--certify 1% --points-alone").said, HasSubstr(points));
   (void)WriteRunPlan(folder_.path(), "");
   EXPECT_THAT(Insert("out", "--certify 1%").said,
-              HasSubstr("--certify: must be left out: the plan has no objects"));
+              HasSubstr("--certify: must be off for a plan without objects"));
   Json plan = ReadJson("plan.json");
   plan["fidelity"] = "reference";
   WriteFileWhole(Path("plan.json"), plan.dump());
