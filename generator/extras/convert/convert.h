@@ -59,10 +59,6 @@ struct ConvertResult : RunResult {
 [[nodiscard]] Losses LostBesidePoints(const std::filesystem::path& recording,
                                       const InsertRange& range);
 
-/// Threads and slots of a pipe for the conversion of frames.
-/// @param work Gets the pipe to complete and run.
-void WithConvertPipe(int num_threads, const std::function<void(FramePipe& pipe)>& work);
-
 /// Whether KITTI's files have a place for a field.
 inline bool IsKittiField(std::string_view name) {
   return name == "x" || name == "y" || name == "z" || name == "intensity" || name == "label" ||

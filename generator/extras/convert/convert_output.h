@@ -64,25 +64,14 @@ struct SourceSurvey {
 /// What becomes of a frame.
 struct ConvertedFrame {
   std::vector<FrameFile> files;
-  std::vector<std::string> lines;           ///< One for each of ConvertOutput::LineFiles().
+  std::vector<std::string> lines;           ///< One for each of FolderOutput::LineFiles().
   std::vector<ros::TopicMessage> messages;  ///< Of bags.
   ConvertRecord record;
 };
 
 /// Writes the frames of a recording in a format.
-class ConvertOutput {
+class ConvertOutput : public FolderOutput {
  public:
-  virtual ~ConvertOutput() = default;
-
-  /// The files that get a line of each frame, with their headers.
-  [[nodiscard]] virtual std::vector<LineFileName> LineFiles() const { return {}; }
-  [[nodiscard]] virtual std::vector<FixedFile> FixedFiles() const { return {}; }
-  /// Begins, or goes on after an interruption.
-  /// @param num_done How many of the `num_frames` an earlier run has written.
-  /// @return How many of these are there.
-  [[nodiscard]] virtual std::uint32_t Begin(std::uint32_t num_done, std::uint32_t /*num_frames*/) {
-    return num_done;
-  }
   /// Fills `files`, `lines`, `messages`, and what is lost. Several threads may do so at once.
   /// @param number Of the frame in the recording.
   virtual void Encode(const SourceFrame& source,
@@ -90,9 +79,6 @@ class ConvertOutput {
                       ConvertedFrame& frame) const = 0;
   /// Writes the messages of one frame after another.
   virtual void Write(const ConvertedFrame& /*frame*/) {}
-  virtual void Finish() {}
-  /// The names of the files that hold more than a frame, after Finish().
-  [[nodiscard]] virtual std::vector<std::string> WholeFiles() const { return {}; }
   /// What is lost of the recording as a whole.
   [[nodiscard]] virtual Losses LostOfAll() const { return {}; }
 };
@@ -107,7 +93,7 @@ class ConvertOutput {
 [[nodiscard]] std::unique_ptr<ConvertOutput> MakeConvertedBag(const ConvertChoices& choices,
                                                               const RecordingInfo& info,
                                                               const std::vector<std::string>& names,
-                                                              const SourceFrame& first);
+                                                              const SourceSurvey& survey);
 
 /// The cloud with the chosen fields that the format holds; empty names: all.
 [[nodiscard]] Cloud CloudFor(const FrameFormat& format,

@@ -1,5 +1,3 @@
-#include <tbb/task_arena.h>
-
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -83,24 +81,11 @@ class RecordingConversion {
                  .ledger = std::string(kConvertFile)}) {}
 
   ConvertResult Run() {
-    ConvertResult result;
-    result.num = survey_.range.num;
-    result.was_complete = folder_.is_complete();
-    result.changed = folder_.changed();
-    result.num_resumed = folder_.num_done();
-    if (!folder_.is_complete()) {
-      result.num_resumed = output_->Begin(folder_.num_done(), survey_.range.num);
-      folder_.Open(result.num_resumed);
+    const auto write_fixed = [&] {
       for (const FixedFile& file : output_->FixedFiles()) folder_.WriteFixed(file);
-      try {
-        MakeFrames();
-      } catch (...) {
-        output_.reset();
-        folder_.Abandon();
-        throw;
-      }
-    }
-    result.num_done = folder_.num_done();
+    };
+    ConvertResult result{folder_.Fill(output_, write_fixed, [&] { MakeFrames(); })};
+    result.num = survey_.range.num;
     if (result.num_done == survey_.range.num) {
       result.lost = LostOfFrames();
       if (!folder_.is_complete()) Finish(result.lost);
@@ -112,7 +97,7 @@ class RecordingConversion {
  private:
   void MakeFrames() {
     std::uint32_t num_done = folder_.num_done();
-    WithConvertPipe(choices_.num_threads, [&](FramePipe& pipe) {
+    WithFramePipe(choices_.num_threads, [&](FramePipe& pipe) {
       std::vector<ConvertSlot> slots(pipe.num_slots());
       pipe.begin = [&, first = survey_.range.first + num_done](std::size_t i) {
         for (; next_ < first; ++next_) (void)source_.Next();
@@ -194,15 +179,6 @@ class RecordingConversion {
 };
 
 }  // namespace
-
-void WithConvertPipe(int num_threads, const std::function<void(FramePipe& pipe)>& work) {
-  tbb::task_arena arena(num_threads == 0 ? tbb::task_arena::automatic : num_threads);
-  FramePipe pipe;
-  pipe.num_at_once = static_cast<std::size_t>(arena.max_concurrency()) + 1;
-  pipe.num_waiting = 2;
-  pipe.execute = [&](const std::function<void()>& run) { arena.execute(run); };
-  work(pipe);
-}
 
 std::vector<std::string> ConvertFormats() {
   std::vector<std::string> names;

@@ -15,6 +15,7 @@
 #include "generator/extras/convert/convert.h"
 #include "generator/extras/insert/clouds/label_numbers.h"
 #include "generator/extras/insert/clouds/recording_output.h"
+#include "generator/extras/insert/run/frame_folder.h"
 #include "generator/extras/insert/run/insert_run.h"
 #include "generator/run/run_directory.h"
 #include "railcast/rail_world.h"
@@ -220,7 +221,7 @@ ConvertResult ConvertSequence(const ConvertChoices& choices, const RunHooks& hoo
   result.num_resumed = directory.num_done();
   std::uint32_t num_done = directory.num_done();
   hooks.on_progress(num_done, range.num);
-  WithConvertPipe(choices.num_threads, [&](FramePipe& pipe) {
+  WithFramePipe(choices.num_threads, [&](FramePipe& pipe) {
     std::vector<SequenceSlot> slots(pipe.num_slots());
     std::uint32_t next = 0;
     const auto take = [&](SequenceSlot& slot) {

@@ -59,12 +59,14 @@ class ConvertedBag final : public ConvertOutput {
   ConvertedBag(const ConvertChoices& choices,
                const RecordingInfo& info,
                std::vector<std::string> names,
-               const SourceFrame& first)
+               const SourceSurvey& survey)
       : format_(ParseFrameFormat(choices.format)),
         path_(choices.directory / format_.bag),
         is_mcap_(path_.extension() == ".mcap"),
+        num_frames_(survey.range.num),
         num_label_names_(info.labels.labels().size()),
         names_(std::move(names)) {
+    const SourceFrame& first = survey.first;
     const auto& scenario = info.scenario;
     const std::string sensor =
         scenario && !scenario->lidar.name.empty() ? scenario->lidar.name : "lidar";
@@ -84,11 +86,11 @@ class ConvertedBag final : public ConvertOutput {
     }
   }
 
-  [[nodiscard]] std::uint32_t Begin(std::uint32_t num_done, std::uint32_t num_frames) override {
+  [[nodiscard]] std::uint32_t Begin(std::uint32_t num_done) override {
     fs::path unfinished = path_;
     if (is_mcap_) unfinished += kUnfinishedSuffix;
     // With all frames it may have been closed, and cannot be gone on with.
-    const bool is_begun = num_done > 0 && num_done < num_frames && fs::exists(unfinished) &&
+    const bool is_begun = num_done > 0 && num_done < num_frames_ && fs::exists(unfinished) &&
                           !fs::exists(path_ / "metadata.yaml");
     if (is_begun) {
       writer_ = is_mcap_ ? bag::ContinueMcap(path_, bag::McapCompression::kZstd, num_done)
@@ -196,6 +198,7 @@ class ConvertedBag final : public ConvertOutput {
   const FrameFormat& format_;
   fs::path path_;
   bool is_mcap_;
+  std::uint32_t num_frames_;
   std::size_t num_label_names_;
   std::vector<std::string> names_;
   std::string frame_id_;
@@ -209,8 +212,8 @@ class ConvertedBag final : public ConvertOutput {
 std::unique_ptr<ConvertOutput> MakeConvertedBag(const ConvertChoices& choices,
                                                 const RecordingInfo& info,
                                                 const std::vector<std::string>& names,
-                                                const SourceFrame& first) {
-  return std::make_unique<ConvertedBag>(choices, info, names, first);
+                                                const SourceSurvey& survey) {
+  return std::make_unique<ConvertedBag>(choices, info, names, survey);
 }
 
 }  // namespace railcast

@@ -281,7 +281,7 @@ std::unique_ptr<ConvertOutput> MakeConvertOutput(const ConvertChoices& choices,
   std::vector<std::string> there;
   for (const CloudField& field : first.cloud.fields) there.emplace_back(field.plain_name());
   const auto names = [&] { return ChosenFields(is_layout ? "all" : choices.fields, there); };
-  if (!format.bag.empty()) return MakeConvertedBag(choices, info, names(), first);
+  if (!format.bag.empty()) return MakeConvertedBag(choices, info, names(), survey);
   if (is_layout) {
     throw InputError("--fields " + choices.fields +
                      ": must be with --format mcap or rosbag2 (got " + choices.format + ")");

@@ -40,10 +40,10 @@ struct WrittenFrame {
   std::optional<EncodedFrame> frame{};  ///< Of a sequence.
 };
 
-/// Writes the recording with what was inserted, frame by frame.
-class RecordingOutput {
+/// Writes frames that are made of those of a recording, one after another, into a folder.
+class FolderOutput {
  public:
-  virtual ~RecordingOutput() = default;
+  virtual ~FolderOutput() = default;
 
   /// The files that get a line of each frame, with their headers; relative to the folder of the
   /// recording.
@@ -54,6 +54,16 @@ class RecordingOutput {
   /// @param num_done How many frames an earlier run has written.
   /// @return How many of these are there and need not be written again.
   [[nodiscard]] virtual std::uint32_t Begin(std::uint32_t num_done) { return num_done; }
+  virtual void Finish() {}
+  /// The names of the files that hold more than a frame and are none of LineFiles() or
+  /// FixedFiles(), as of a capture; not of a sequence, whose own manifest knows its files. After
+  /// Finish().
+  [[nodiscard]] virtual std::vector<std::string> WholeFiles() const { return {}; }
+};
+
+/// Writes the recording with what was inserted.
+class RecordingOutput : public FolderOutput {
+ public:
   /// Several threads may do so at once, and while one writes.
   /// @param frame Counted from 0 in the recording.
   [[nodiscard]] virtual WrittenFrame Encode(const RecordedFirings& firings,
@@ -64,11 +74,6 @@ class RecordingOutput {
   virtual void Write(const RecordedFirings& /*firings*/,
                      const InsertedFrame& /*inserted*/,
                      WrittenFrame& /*output*/) {}
-  virtual void Finish() {}
-  /// The names of the files that hold more than a frame and are none of LineFiles() or
-  /// FixedFiles(), as of a capture; not of a sequence, whose own manifest knows its files. After
-  /// Finish().
-  [[nodiscard]] virtual std::vector<std::string> WholeFiles() const { return {}; }
 };
 
 /// What the run of a recorded sequence was, but for its directory and frames.

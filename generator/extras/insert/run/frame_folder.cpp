@@ -1,5 +1,7 @@
 #include "generator/extras/insert/run/frame_folder.h"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <optional>
 #include <system_error>
@@ -41,6 +43,16 @@ std::vector<LineFileName> WithLedger(const FrameFolderSpec& spec) {
 }
 
 }  // namespace
+
+void WithFramePipe(int num_threads, const std::function<void(FramePipe& pipe)>& work) {
+  tbb::task_arena arena(num_threads == 0 ? tbb::task_arena::automatic : num_threads);
+  FramePipe pipe;
+  pipe.num_at_once = static_cast<std::size_t>(arena.max_concurrency()) + 1;
+  // Whole frames of captures wait for the thread that edits their packets.
+  pipe.num_waiting = 2;
+  pipe.execute = [&](const std::function<void()>& run) { arena.execute(run); };
+  work(pipe);
+}
 
 FrameFolder::FrameFolder(FrameFolderSpec spec)
     : spec_(std::move(spec)), lock_(spec_.directory), lines_(spec_.directory, WithLedger(spec_)) {

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +16,7 @@
 #include "core/io/write_file.h"
 #include "core/scenario/value_type.h"
 #include "generator/extras/insert/clouds/recording_output.h"
+#include "generator/run/frame_pipe.h"
 #include "generator/run/line_ledger.h"
 #include "railcast/io/cloud_files.h"
 
@@ -33,6 +36,10 @@ struct FrameFolderSpec {
   bool is_known = false;  ///< Whether the folder is known to be of this run, whatever it says.
 };
 
+/// Threads and slots of a pipe for frames that are made of those of a recording.
+/// @param work Gets the pipe to complete and run.
+void WithFramePipe(int num_threads, const std::function<void(FramePipe& pipe)>& work);
+
 /// The folder that `insert` or `convert` writes, complete or unfinished. A frame counts as done
 /// when its line in the ledger is whole and its files and lines have the hashes that this line
 /// states. What else an interrupted run has left is written again.
@@ -47,11 +54,32 @@ class FrameFolder {
   [[nodiscard]] const std::filesystem::path& directory() const { return spec_.directory; }
   [[nodiscard]] bool is_complete() const { return is_complete_; }
   [[nodiscard]] std::uint32_t num_done() const { return num_done_; }
-  /// What was not as it was written when a complete folder was opened, a line each.
-  [[nodiscard]] const std::vector<std::string>& changed() const { return changed_; }
 
-  /// Keeps the lines of the first frames and opens the files for those after them.
-  void Open(std::uint32_t num_kept);
+  /// Begins the output, or goes on with it, and has the frames made that the folder lacks.
+  /// @param write_fixed Calls WriteFixed() for all that is known before the first frame.
+  /// @param make_frames Calls Write(). If it throws, the output is closed and, if no frame was
+  ///   written, the folder removed: a plan that does not fit its recording leaves nothing that
+  ///   keeps a mended one from being run.
+  template <typename Output>
+  [[nodiscard]] RunResult Fill(std::unique_ptr<Output>& output,
+                               const std::function<void()>& write_fixed,
+                               const std::function<void()>& make_frames) {
+    RunResult result{.num_resumed = num_done_, .was_complete = is_complete_, .changed = changed_};
+    if (!is_complete_) {
+      result.num_resumed = output->Begin(num_done_);
+      Open(result.num_resumed);
+      write_fixed();
+      try {
+        make_frames();
+      } catch (...) {
+        output.reset();
+        Abandon();
+        throw;
+      }
+    }
+    result.num_done = num_done_;
+    return result;
+  }
   /// Writes a file that is known before the first frame, unless it is there already.
   void WriteFixed(const FixedFile& file);
   /// Writes the next frame.
@@ -69,9 +97,6 @@ class FrameFolder {
     });
     ++num_done_;
   }
-  /// Removes what was written if no frame was: a plan that does not fit its recording leaves
-  /// nothing that keeps a mended one from being run.
-  void Abandon() noexcept;
   /// Writes the manifest.
   /// @param manifest Its record, whose member `files` gets the hashes of all files but those of
   ///   frames, which the ledger names.
@@ -84,6 +109,10 @@ class FrameFolder {
   }
 
  private:
+  /// Keeps the lines of the first frames and opens the files for those after them.
+  void Open(std::uint32_t num_kept);
+  /// Removes what was written if no frame was.
+  void Abandon() noexcept;
   void WriteFiles(const std::vector<FrameFile>& files, FrameRecord& frame) const;
   [[nodiscard]] NamedValues<std::string> HashesOfWhole(const std::vector<std::string>& others);
   void RemoveUnfinished(const std::vector<std::string>& own) const;
@@ -93,8 +122,8 @@ class FrameFolder {
   bool was_empty_ = false;
   bool is_complete_ = false;
   std::uint32_t num_done_ = 0;
-  std::vector<std::string> changed_;
-  LineLedger lines_;  ///< The ledger is last.
+  std::vector<std::string> changed_;  ///< What was not as it was written, a line each.
+  LineLedger lines_;                  ///< The ledger is last.
   std::vector<std::string> fixed_;
 };
 

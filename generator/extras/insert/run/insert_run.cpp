@@ -1,7 +1,5 @@
 #include "generator/extras/insert/run/insert_run.h"
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <functional>
@@ -38,7 +36,6 @@
 #include "generator/extras/insert/packets/same_copy.h"
 #include "generator/extras/insert/plan/recorded_run.h"
 #include "generator/extras/insert/run/frame_folder.h"
-#include "generator/run/frame_pipe.h"
 #include "generator/run/run_directory.h"
 
 namespace railcast {
@@ -192,25 +189,9 @@ class InsertRun {
                  .is_known = choices.is_known}) {}
 
   InsertResult Run() {
-    InsertResult result;
-    result.num_frames = range_.num;
-    result.was_complete = folder_.is_complete();
-    result.changed = folder_.changed();
-    result.num_resumed = folder_.num_done();
-    if (!folder_.is_complete()) {
-      result.num_resumed = output_->Begin(folder_.num_done());
-      folder_.Open(result.num_resumed);
-      WriteFixed();
-      if (inserter_.certify()) certificates_ = CertificatesSoFar();
-      try {
-        MakeFrames();
-      } catch (...) {
-        folder_.Abandon();
-        throw;
-      }
-      if (folder_.num_done() == range_.num) Finish();
-    }
-    result.num_done = folder_.num_done();
+    const auto write_fixed = [&] { WriteFixed(); };
+    InsertResult result{folder_.Fill(output_, write_fixed, [&] { MakeFrames(); }), range_.num};
+    if (!folder_.is_complete() && result.num_done == range_.num) Finish();
     result.is_complete = folder_.is_complete();
     return result;
   }
@@ -244,34 +225,31 @@ class InsertRun {
   }
 
   void MakeFrames() {
-    tbb::task_arena arena(num_threads_ == 0 ? tbb::task_arena::automatic : num_threads_);
-    FramePipe pipe;
-    pipe.num_at_once = static_cast<std::size_t>(arena.max_concurrency()) + 1;
-    // Whole frames of captures wait for the thread that edits their packets.
-    pipe.num_waiting = 2;
-    pipe.execute = [&](const std::function<void()>& work) { arena.execute(work); };
-    std::vector<FrameOnWay> slots(pipe.num_slots());
+    if (inserter_.certify()) certificates_ = CertificatesSoFar();
     std::uint32_t num_done = folder_.num_done();
-    std::uint32_t next = 0;
-    pipe.begin = [&, first = range_.first + num_done](std::size_t i) {
-      for (; next < first; ++next) {
-        if (!recording_.Next()) return false;
-      }
-      if (next == range_.first + range_.num || hooks_.is_stopped()) return false;
-      auto reader = recording_.Next();
-      if (!reader) return false;
-      slots[i].frame = next++;
-      slots[i].read = std::move(*reader);
-      return true;
-    };
-    pipe.stages = {
-        {false, [&](std::size_t i) { slots[i].firings = finder_.Find(ReadFrame(slots[i])); }},
-        {true, [&](std::size_t i) { Insert(slots[i]); }},
-        {false, [&](std::size_t i) { Encode(slots[i]); }}};
-    pipe.write = [&](std::size_t i) { Write(slots[i]); };
-    pipe.on_written = [&] { hooks_.on_progress(++num_done, range_.num); };
-    hooks_.on_progress(num_done, range_.num);
-    RunPipe(pipe);
+    WithFramePipe(num_threads_, [&](FramePipe& pipe) {
+      std::vector<FrameOnWay> slots(pipe.num_slots());
+      std::uint32_t next = 0;
+      pipe.begin = [&, first = range_.first + num_done](std::size_t i) {
+        for (; next < first; ++next) {
+          if (!recording_.Next()) return false;
+        }
+        if (next == range_.first + range_.num || hooks_.is_stopped()) return false;
+        auto reader = recording_.Next();
+        if (!reader) return false;
+        slots[i].frame = next++;
+        slots[i].read = std::move(*reader);
+        return true;
+      };
+      pipe.stages = {
+          {false, [&](std::size_t i) { slots[i].firings = finder_.Find(ReadFrame(slots[i])); }},
+          {true, [&](std::size_t i) { Insert(slots[i]); }},
+          {false, [&](std::size_t i) { Encode(slots[i]); }}};
+      pipe.write = [&](std::size_t i) { Write(slots[i]); };
+      pipe.on_written = [&] { hooks_.on_progress(++num_done, range_.num); };
+      hooks_.on_progress(num_done, range_.num);
+      RunPipe(pipe);
+    });
   }
 
   [[nodiscard]] RecordedFrame ReadFrame(FrameOnWay& way) const {

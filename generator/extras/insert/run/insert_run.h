@@ -29,7 +29,7 @@ struct InsertChoices {
 
 struct InsertResult : RunResult {
   std::uint32_t num_frames{};
-  std::string text;  ///< The report of a complete run.
+  std::string text{};  ///< The report of a complete run.
 };
 
 /// Reads --frames: the first and the last frame, "12..30", or the only one, "12".
