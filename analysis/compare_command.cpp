@@ -9,6 +9,7 @@
 #include "analysis/compare/comparison.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
+#include "core/base/join.h"
 #include "core/fidelity/sample_frames.h"
 #include "core/io/recording/source_choice.h"
 #include "core/io/run/scenario_identity.h"
@@ -83,13 +84,6 @@ int RunPairs(const CompareOptions& options, const std::string& command_line) {
   return kExitSuccess;
 }
 
-std::string NumbersText(const std::vector<std::uint32_t>& frames) {
-  std::string text;
-  for (const std::uint32_t frame : frames)
-    text += (text.empty() ? "" : ", ") + std::to_string(frame);
-  return text;
-}
-
 Report AblateSensor(const CompareOptions& options,
                     const ScenarioSpec& scenario,
                     Simulator& simulator,
@@ -105,7 +99,8 @@ Report AblateSensor(const CompareOptions& options,
       {"Scenario", ShownPath(options.scenario)},
       {"Fidelity", scenario.fidelity == Fidelity::kAuto ? "auto, studied as footprint"
                                                         : std::string(NameOf(scenario.fidelity))},
-      {"Frames", NumbersText(frames) + ": spread over the run and where objects are"},
+      {"Frames", Join(frames, ", ", NumberText<std::uint32_t>) +
+                     ": spread over the run and where objects are"},
       {"Seed", std::to_string(scenario.seed)},
       {"Scenario hash", IdentityOf(scenario).scenario_hash},
       {"Weather", WeatherText(scenario.weather)}};

@@ -7,6 +7,7 @@
 #include "analysis/detectability/detect_report.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
+#include "core/base/join.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/program/progress_line.h"
 #include "core/program/version.h"
@@ -43,17 +44,11 @@ void CheckSameScenario(const std::vector<RecordingInfo>& infos) {
 
 std::vector<std::pair<std::string, std::string>> FactsOf(const std::vector<RecordingInfo>& infos,
                                                          std::size_t num_frames) {
-  std::string sources;
-  std::string seeds;
-  for (const RecordingInfo& info : infos) {
-    if (!sources.empty()) sources += ", ";
-    sources += ShownPath(info.source);
-    if (!seeds.empty()) seeds += ", ";
-    seeds += std::to_string(info.scenario->seed);
-  }
+  const auto source_of = [](const RecordingInfo& info) { return ShownPath(info.source); };
+  const auto seed_of = [](const RecordingInfo& info) { return NumberText(info.scenario->seed); };
   const ScenarioSpec& scenario = *infos.front().scenario;
-  return {{"Sequences", sources},
-          {"Seeds", seeds},
+  return {{"Sequences", Join(infos, ", ", source_of)},
+          {"Seeds", Join(infos, ", ", seed_of)},
           {"Frames", std::to_string(num_frames)},
           {"Sensor", scenario.lidar.name}};
 }

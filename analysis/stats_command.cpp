@@ -11,6 +11,7 @@
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "analysis/stats/statistics.h"
+#include "core/base/join.h"
 #include "core/io/cloud/track_fields.h"
 #include "core/io/recording/recording_extras.h"
 #include "core/io/recording/recording_kinds.h"
@@ -105,12 +106,6 @@ std::string SensorOf(const RecordingInfo& info) {
   return info.scenario ? info.scenario->lidar.name : "";
 }
 
-std::string NamesText(const std::set<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + ShownText(name);
-  return text;
-}
-
 // Recordings are opened here and again when they are measured: a data set has more of them than a
 // program may have files open.
 // @param wanted The only sensor whose recordings the sources keep; empty = all.
@@ -140,9 +135,10 @@ SourcesAtFirstSight LookAtRecordings(const std::string& wanted,
       kept.push_back(path);
     }
     if (!wanted.empty() && kept.empty()) {
-      throw InputError("--sensor: must be a sensor of " + ShownPath(source.source) + ", " +
-                       (others.empty() ? "which names none" : "of " + NamesText(others)) +
-                       " (got " + ShownText(wanted) + ")");
+      throw InputError(
+          "--sensor: must be a sensor of " + ShownPath(source.source) + ", " +
+          (others.empty() ? "which names none" : "of " + Join(others, ", ", ShownText)) + " (got " +
+          ShownText(wanted) + ")");
     }
     source.recordings = std::move(kept);
   }
@@ -233,8 +229,8 @@ int RunStats(const StatsOptions& options, const std::string& command_line) {
   if (!options.sensor.empty()) {
     report.facts.emplace_back("Sensors", ShownText(options.sensor) + ", chosen by --sensor");
   } else if (seen.sensors.size() > 1) {
-    report.facts.emplace_back(
-        "Sensors", NamesText(seen.sensors) + ", taken together; --sensor takes one of them");
+    report.facts.emplace_back("Sensors", Join(seen.sensors, ", ", ShownText) +
+                                             ", taken together; --sensor takes one of them");
   }
   AddDatasetSections(sources, report);
   if (auto section = CaptureSection(chosen)) report.sections.push_back(*section);

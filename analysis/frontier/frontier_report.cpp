@@ -9,6 +9,7 @@
 #include "analysis/report/formats.h"
 #include "analysis/report/provenance.h"
 #include "analysis/report/words.h"
+#include "core/base/join.h"
 
 namespace railcast {
 namespace {
@@ -76,10 +77,7 @@ Table TargetsTable(const std::vector<RowResult>& results) {
 Table ParetoTable(const std::vector<RowResult>& results) {
   Table table = TableOf(kFrontierWords, "pareto_fronts");
   for (const FrontierError& error : kFrontierErrors) {
-    const std::vector<std::string> names = ParetoFront(results, error);
-    std::string rows;
-    for (const std::string& name : names) rows += (rows.empty() ? "" : ", ") + name;
-    table.rows.push_back({std::string(error.title), rows});
+    table.rows.push_back({std::string(error.title), Join(ParetoFront(results, error))});
   }
   return table;
 }

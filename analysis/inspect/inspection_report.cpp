@@ -6,6 +6,7 @@
 
 #include "analysis/inspect/inspection.h"
 #include "analysis/report/cell_text.h"
+#include "core/base/join.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 
@@ -54,12 +55,6 @@ std::string ShareText(std::uint64_t part, std::uint64_t whole) {
          " %";
 }
 
-std::string List(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 Section JobsSection(const std::vector<JobFitness>& jobs) {
   Table table{.key = "jobs", .title = "Jobs"};
   table.columns = ColumnsOf("job: Job; fit: Fit; why: With what, or why not");
@@ -96,8 +91,8 @@ Section SensorSection(const RecordingLook& seen, const RecordingInfo& info) {
   }
   std::vector<std::string> fields;
   for (const auto& [name, num] : seen.fields) fields.push_back(name);
-  findings.Add("fields", List(fields));
-  if (!seen.foreign.empty()) findings.Add("fields of others", List(seen.foreign));
+  findings.Add("fields", Join(fields));
+  if (!seen.foreign.empty()) findings.Add("fields of others", Join(seen.foreign));
   findings.Count("frames", seen.num_frames,
                  seen.is_cut_short ? "the first of more" : "all of them");
   if (seen.num_empty > 0) findings.Count("frames without a point", seen.num_empty);

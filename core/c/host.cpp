@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/base/error.h"
+#include "core/base/join.h"
 #include "core/base/text.h"
 #include "core/c/guard.h"
 #include "core/scenario/json_rules.h"
@@ -222,11 +223,7 @@ std::vector<Surface> SurfacesOf(const railcast_surface* surfaces,
          .material = static_cast<std::uint16_t>(in_library),
          .is_ego = surfaces[i].is_ego != 0});
   }
-  if (!errors.empty()) {
-    std::string lines;
-    for (const std::string& line : errors.lines()) lines += (lines.empty() ? "" : "\n") + line;
-    throw ArgumentError(lines);
-  }
+  if (!errors.empty()) throw ArgumentError(Join(errors.lines(), "\n"));
   return table;
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/base/join.h"
 #include "core/detect/detector/effect_table.h"
 #include "core/fidelity/effect_search.h"
 
@@ -29,12 +30,7 @@ std::string Text(const Deviation& d) {
 
 // Lists names as "a, b and c", or "nothing" if there are none.
 std::string List(const std::vector<std::string>& names) {
-  if (names.empty()) return "nothing";
-  std::string text = names.front();
-  for (std::size_t i = 1; i < names.size(); ++i) {
-    text += (i + 1 == names.size() ? " and " : ", ") + names[i];
-  }
-  return text;
+  return names.empty() ? "nothing" : JoinInProse(names, " and ");
 }
 
 std::string PercentText(double share) {

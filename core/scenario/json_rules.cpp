@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
+#include "core/base/join.h"
 #include "core/base/text.h"
 
 namespace railcast {
@@ -79,18 +80,11 @@ std::optional<std::string> Broken(HostAndPort, std::string_view value) {
 }
 
 std::string Alternatives(const std::vector<std::string>& names) {
-  std::string words;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i > 0) words += i + 1 == names.size() ? " or " : ", ";
-    words += names[i];
-  }
-  return words;
+  return JoinInProse(names, " or ");
 }
 
 std::string InWords(const std::vector<std::string>& names) {
-  std::vector<std::string> quoted;
-  for (const std::string& name : names) quoted.push_back(Quoted(name));
-  return Alternatives(quoted);
+  return JoinInProse(names, " or ", Quoted);
 }
 
 std::optional<std::string> Nearest(std::string_view name, const std::vector<std::string>& valid) {

@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/base/join.h"
 #include "core/io/recording/recorded_motion.h"
 #include "generator/python/bindings.h"
 #include "railcast/enum_names.h"
@@ -42,12 +43,6 @@ std::vector<std::string> FieldsOf(const RecordedFrame& recorded) {
   return names;
 }
 
-std::string JoinedNames(const std::vector<std::string>& names) {
-  std::string all;
-  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-  return all;
-}
-
 py::array FieldNamed(const py::object& self, const std::string& wanted) {
   auto& recorded = self.cast<RecordedFrame&>();
   Frame& frame = recorded.frame;
@@ -61,8 +56,8 @@ py::array FieldNamed(const py::object& self, const std::string& wanted) {
     if (found.is_none() && field.name == wanted) found = ViewOf(field.values, frame, self);
   }
   if (!found.is_none()) return found;
-  throw py::key_error("frame: must have the field, it has " + JoinedNames(FieldsOf(recorded)) +
-                      " (got " + Quoted(wanted) + ")");
+  throw py::key_error("frame: must have the field, it has " + Join(FieldsOf(recorded)) + " (got " +
+                      Quoted(wanted) + ")");
 }
 
 std::size_t NumPoints(const Frame& frame) {
@@ -84,7 +79,7 @@ Compensation CompensationOf(const RecordedFrame& recorded, const std::string& na
   const std::optional<Compensation> wanted = ValueNamed<Compensation>(name);
   if (!wanted) {
     throw InputError(
-        {{"compensate", "must be one of " + JoinedNames(NamesOf<Compensation>()), Quoted(name)}});
+        {{"compensate", "must be one of " + Join(NamesOf<Compensation>()), Quoted(name)}});
   }
   if (recorded.axes == PointAxes::kOther && wanted != Compensation::kNone) {
     throw InputError({{"compensate",

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/join.h"
 #include "core/io/recording/recorded_motion.h"
 
 namespace railcast {
@@ -193,12 +194,7 @@ std::vector<std::string> ColorableFields(const RecordedFrame& recorded) {
 FieldValues ValuesOf(const ShownFrame& shown, const std::string& name) {
   const std::vector<std::string> colorable = ColorableFields(*shown.recorded);
   if (std::ranges::find(colorable, name) == colorable.end()) {
-    std::string fault = "has no field " + name + " to color by (has: ";
-    for (const std::string& field : colorable) {
-      if (&field != &colorable.front()) fault += ", ";
-      fault += field;
-    }
-    throw InputError(fault + ")");
+    throw InputError("has no field " + name + " to color by (has: " + Join(colorable) + ")");
   }
   if (const ColorField* const field = FindColorField(name)) {
     return {.kind = field->kind, .title = std::string(field->title), .values = Load(shown, *field)};

@@ -16,6 +16,7 @@
 #include "analysis/stats/certificate_section.h"
 #include "core/base/error.h"
 #include "core/base/input_file.h"
+#include "core/base/join.h"
 #include "core/base/text.h"
 #include "core/io/write_file.h"
 #include "core/program/command_line.h"
@@ -121,11 +122,7 @@ Section TraceabilitySection(const FinishedStudy& study) {
   add("Study", identity.study_hash);
   add("Asked about", study.spec.ObjectsText());
   add("Recipe", identity.recipe_hash);
-  std::string bases;
-  for (const std::string& hash : identity.base_hashes) {
-    bases += (bases.empty() ? "" : ", ") + hash;
-  }
-  add("Bases", bases);
+  add("Bases", Join(identity.base_hashes));
   const std::string& files = identity.files_hash;
   add("Other files", files.empty() ? "none" : files);
   const auto& approaches = study.result.approaches;

@@ -2,6 +2,7 @@
 
 #include "analysis/extras/study/study_spec.h"
 #include "core/base/error.h"
+#include "core/base/join.h"
 #include "core/base/units.h"
 #include "core/scenario/json_reader.h"
 #include "core/scenario/json_source.h"
@@ -71,10 +72,7 @@ void Describe(Archive& a, StudySpec& s) {
 }
 
 std::string StudySpec::ObjectsText() const {
-  if (objects.empty()) return "all objects in the way";
-  std::string text;
-  for (const std::string& name : objects) text += (text.empty() ? "" : ", ") + name;
-  return text;
+  return objects.empty() ? "all objects in the way" : Join(objects);
 }
 
 StudySpec ReadStudy(const std::filesystem::path& file) {

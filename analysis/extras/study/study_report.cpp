@@ -11,6 +11,7 @@
 #include "analysis/extras/study/kept_files.h"
 #include "analysis/report/words.h"
 #include "analysis/stats/certificate_section.h"
+#include "core/base/join.h"
 #include "core/base/text.h"
 
 namespace railcast {
@@ -65,15 +66,11 @@ Table DriverTable(const std::vector<TargetResult>& targets, const Json& yardstic
 std::vector<std::pair<std::string, std::string>> FactsOfStudy(const StudySpec& study,
                                                               const StudyRecord& identity,
                                                               std::size_t num_approaches) {
-  std::string bases;
-  for (const std::string& hash : identity.base_hashes) {
-    bases += (bases.empty() ? "" : ", ") + hash;
-  }
   const BrakingSpec& braking = study.detect.braking;
   return {
       {"Study", ShownPath(study.file) + " (" + identity.study_hash + ")"},
       {"Recipe", ShownPath(study.recipe) + " (" + identity.recipe_hash + ")"},
-      {"Bases", bases},
+      {"Bases", Join(identity.base_hashes)},
       {"Approaches", NumberText(num_approaches)},
       {"Asked about", study.ObjectsText()},
       {"Detected", SeenText(study)},

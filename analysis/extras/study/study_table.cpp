@@ -8,6 +8,7 @@
 #include "analysis/extras/study/study_report.h"
 #include "analysis/report/words.h"
 #include "core/base/error.h"
+#include "core/base/join.h"
 #include "core/base/text.h"
 #include "core/program/options.h"
 
@@ -64,12 +65,6 @@ std::vector<const Factor*> FactorsBySize(const std::vector<Factor>& factors,
   return sorted;
 }
 
-std::string NamesText(const std::vector<const Factor*>& factors, const std::string& between) {
-  std::string text;
-  for (const Factor* factor : factors) text += (text.empty() ? "" : between) + factor->name;
-  return text;
-}
-
 // "factor_object_person_posture" and "posture" for "object /person/posture".
 TableColumn ColumnOfFactor(const Factor& factor) {
   TableColumn column{.key = "factor", .title = factor.name.substr(factor.name.rfind('/') + 1)};
@@ -115,9 +110,8 @@ void CheckTable(const std::vector<std::string>& names) {
   const std::set<std::string> different(names.begin(), names.end());
   const bool is_fit = different.size() == names.size() && names.size() >= 2 && names.size() <= 3;
   if (is_fit || names.empty()) return;
-  std::string given;
-  for (const std::string& name : names) given += (given.empty() ? "" : ",") + name;
-  throw InputError("--table: must be two or three different factors (got " + Quoted(given) + ")");
+  throw InputError("--table: must be two or three different factors (got " +
+                   Quoted(Join(names, ",")) + ")");
 }
 
 std::vector<const Factor*> NamedFactors(const std::vector<std::string>& names,
@@ -127,10 +121,8 @@ std::vector<const Factor*> NamedFactors(const std::vector<std::string>& names,
   for (const std::string& name : names) {
     const auto found = std::ranges::find(factors, name, &Factor::name);
     if (found == factors.end()) {
-      std::vector<const Factor*> all;
-      for (const Factor& factor : factors) all.push_back(&factor);
-      throw InputError("--table: must be factors of the study: " + NamesText(all, ", ") + " (got " +
-                       Quoted(name) + ")");
+      throw InputError("--table: must be factors of the study: " +
+                       Join(factors, ", ", &Factor::name) + " (got " + Quoted(name) + ")");
     }
     named.push_back(&*found);
   }
@@ -167,7 +159,7 @@ Section TableSection(const std::vector<Observation>& observations,
   Section section = SectionOf(kStudyWords, "verdict_by_condition");
   if (factors.empty()) return section;
   Table table = TableOf(kStudyWords, "verdict_by_condition");
-  table.title = NamesText(factors, " × ");
+  table.title = Join(factors, " × ", &Factor::name);
   const auto num_answers = static_cast<std::ptrdiff_t>(table.columns.size());
   std::size_t num_combinations = 1;
   for (const Factor* factor : factors) {

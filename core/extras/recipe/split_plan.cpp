@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/join.h"
 #include "core/base/text.h"
 #include "core/extras/recipe/distribution.h"
 #include "core/extras/recipe/drafted_scenario.h"
@@ -90,11 +91,7 @@ std::string NamesOfParts(const PerPart<double>& shares) {
   for (const auto& [split, name] : kEnumNames<Split>) {
     if (shares[static_cast<std::size_t>(split)] > 0.0) names.emplace_back(name);
   }
-  std::string text = names.front();
-  for (std::size_t i = 1; i < names.size(); ++i) {
-    text += (i + 1 == names.size() ? " and " : ", ") + names[i];
-  }
-  return text;
+  return JoinInProse(names, " and ");
 }
 
 [[noreturn]] void Refuse(const Recipe& recipe, const std::string& rule, const std::string& got) {

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "core/base/error.h"
+#include "core/base/join.h"
 #include "core/io/cloud/track_fields.h"
 #include "core/scenario/json_rules.h"
 #include "railcast/frame.h"
@@ -30,15 +31,6 @@ std::vector<std::string> TableNames(bool has_velocity) {
 
 bool IsAmong(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-std::string Join(const std::vector<std::string>& names, std::string_view separator) {
-  std::string text;
-  for (const std::string& name : names) {
-    if (!text.empty()) text += separator;
-    text += name;
-  }
-  return text;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/join.h"
 #include "core/base/text.h"
 #include "core/io/write_file.h"
 
@@ -167,12 +168,9 @@ std::optional<fs::path> FindSemanticKittiYaml(const fs::path& clouds) {
     if (found.size() == 1) return found.front();
     if (found.empty()) continue;
     std::ranges::sort(found);
-    std::string names;
-    for (const fs::path& file : found) {
-      names += (names.empty() ? "" : ", ") + ShownPath(file.filename());
-    }
-    throw InputError(ShownPath(folder) + ": must hold one semantic-kitti*.yaml (got " + names +
-                     ")");
+    const auto name_of = [](const fs::path& file) { return ShownPath(file.filename()); };
+    throw InputError(ShownPath(folder) + ": must hold one semantic-kitti*.yaml (got " +
+                     Join(found, ", ", name_of) + ")");
   }
   return std::nullopt;
 }

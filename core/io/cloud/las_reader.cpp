@@ -13,6 +13,7 @@
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
+#include "core/base/join.h"
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
 #include "railcast/remark.h"
@@ -346,8 +347,6 @@ Cloud CloudOfLas(const std::string& name, std::string_view bytes) {
   const std::uint64_t end = header.points_begin + header.num_points * header.point_bytes;
   const std::uint64_t rest = std::max(EndOfPoints(file, header), end) - end;
   const std::vector<std::string> left_out = FieldsLeftOut(header);
-  std::string names;
-  for (const std::string& field : left_out) names += (names.empty() ? "" : ", ") + field;
   cloud.remarks = {
       {.kind = RemarkKind::kPointsBeyondData, .place = name, .number = rest / header.point_bytes},
       {.kind = RemarkKind::kSurplusBytes, .place = name, .number = rest % header.point_bytes},
@@ -359,7 +358,7 @@ Cloud CloudOfLas(const std::string& name, std::string_view bytes) {
       {.kind = RemarkKind::kFieldsLeftOut,
        .place = name,
        .number = left_out.size(),
-       .detail = names}};
+       .detail = Join(left_out)}};
   std::erase_if(cloud.remarks, [](const Remark& remark) { return remark.number == 0; });
   return cloud;
 }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/join.h"
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
 #include "core/io/cloud/cloud_file.h"
@@ -104,9 +105,8 @@ const FrameFormat* FindFrameFormat(std::string_view name) {
 
 const FrameFormat& ParseFrameFormat(std::string_view name) {
   if (const FrameFormat* const format = FindFrameFormat(name)) return *format;
-  std::string valid;
-  for (const std::string& known : FrameFormatNames()) valid += (valid.empty() ? "" : ", ") + known;
-  throw InputError("--format: unknown format \"" + std::string(name) + "\" (valid: " + valid + ")");
+  throw InputError("--format: unknown format \"" + std::string(name) +
+                   "\" (valid: " + Join(FrameFormatNames()) + ")");
 }
 
 const FrameFormat* FindReader(const std::filesystem::path& file) {
@@ -126,12 +126,7 @@ std::string ReadableExtensions(bool with_datasets, const std::vector<std::string
     if (std::ranges::find(all, extension) == all.end()) all.push_back(extension);
   }
   all.insert(all.end(), more.begin(), more.end());
-  std::string text;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (i > 0) text += i + 1 == all.size() ? " or " : ", ";
-    text += all[i];
-  }
-  return text;
+  return JoinInProse(all, " or ");
 }
 
 std::vector<std::string> FrameFileNames(const FrameFormat& format, std::uint32_t number) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/join.h"
 #include "core/base/text.h"
 #include "core/rail/network/turnout_place.h"
 
@@ -162,9 +163,7 @@ class RouteMaker {
 }  // namespace
 
 std::string WayText(const Route& route) {
-  std::string names;
-  for (const std::string& name : route.names) names += (names.empty() ? "" : ", ") + Quoted(name);
-  return (route.names.size() == 1 ? "track " : "route ") + names;
+  return (route.names.size() == 1 ? "track " : "route ") + Join(route.names, ", ", Quoted);
 }
 
 std::optional<Route> MakeRoute(const WorldSpec& world,

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/base/error.h"
+#include "core/base/join.h"
 #include "core/base/text.h"
 #include "core/rail/network/network.h"
 
@@ -139,11 +140,9 @@ void AddUnknownTrack(const WorldSpec& world,
                      const std::string& name,
                      WorldFaults& faults) {
   if (!AreNamesKnown(world, faults)) return;
-  std::string names;
-  for (const TrackSpec& known : world.tracks) {
-    names += (names.empty() ? "" : ", ") + Quoted(known.name);
-  }
-  faults.Add(pointer, "must be one of " + names + " (got " + Quoted(name) + ")");
+  const auto quoted = [](const TrackSpec& track) { return Quoted(track.name); };
+  faults.Add(pointer,
+             "must be one of " + Join(world.tracks, ", ", quoted) + " (got " + Quoted(name) + ")");
 }
 
 std::string MetresText(double length_m) {

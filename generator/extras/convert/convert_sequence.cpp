@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/join.h"
 #include "core/base/text.h"
 #include "core/io/cloud/track_fields.h"
 #include "core/io/content_hash.h"
@@ -49,9 +50,7 @@ FieldSelection FieldsOfBoth(const FieldSelection& recorded,
   if (!has_outcomes) std::erase(there, "outcome");
   if (!ChosenFields(choices.fields, there).empty())
     return FieldSelection(choices.fields, true, true);
-  std::string list;
-  for (const std::string& name : there) list += (list.empty() ? "" : ",") + name;
-  return FieldSelection(list, true, true);
+  return FieldSelection(Join(there, ","), true, true);
 }
 
 /// The run that writes the sequence.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/join.h"
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
 #include "core/base/units.h"
@@ -225,10 +226,8 @@ std::vector<std::string> ChosenFields(const std::string& fields,
     wanted.push_back(fields.substr(begin, end - begin));
     begin = end + 1;
     if (std::ranges::find(there, wanted.back()) != there.end()) continue;
-    std::string list;
-    for (const std::string& name : there) list += (list.empty() ? "" : ", ") + ShownText(name);
-    throw InputError("--fields: must be among those of the recording, " + list + " (got " +
-                     ShownText(wanted.back()) + ")");
+    throw InputError("--fields: must be among those of the recording, " +
+                     Join(there, ", ", ShownText) + " (got " + ShownText(wanted.back()) + ")");
   }
   for (const char* axis : {"x", "y", "z"}) {
     // Those of other software may be capitals.

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "core/base/join.h"
 #include "core/base/text.h"
 #include "core/extras/packets/recording/capture_recording.h"
 
@@ -155,9 +156,7 @@ std::string PortsText(const CaptureSensor& sensor) {
   std::ranges::sort(ports);
   const auto repeated = std::ranges::unique(ports);
   ports.erase(repeated.begin(), repeated.end());
-  std::string text;
-  for (const std::uint16_t port : ports) text += (text.empty() ? "" : ", ") + NumberText(port);
-  return text;
+  return Join(ports, ", ", NumberText<std::uint16_t>);
 }
 
 }  // namespace railcast

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/base/join.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/extras/packets/spinning/scan_fit.h"
@@ -69,12 +70,7 @@ std::optional<std::string> RefuseMode(const SpinningModel& model, std::uint8_t m
   std::vector<std::uint8_t> modes = model.single_modes;
   modes.insert(modes.end(), model.dual_modes.begin(), model.dual_modes.end());
   if (modes.empty() || std::ranges::count(modes, mode) > 0) return std::nullopt;
-  std::string rule = "return mode must be ";
-  for (std::size_t i = 0; i < modes.size(); ++i) {
-    if (i > 0) rule += i + 1 < modes.size() ? ", " : " or ";
-    rule += NumberText(modes[i]);
-  }
-  return rule + Got(mode);
+  return "return mode must be " + JoinInProse(modes, " or ", NumberText<std::uint8_t>) + Got(mode);
 }
 
 std::optional<std::string> RefuseTail(const SpinningModel& model, std::span<const char> payload) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/join.h"
 #include "core/base/text.h"
 
 namespace railcast::ros {
@@ -92,13 +93,9 @@ std::string Sha256(std::string_view text) {
 std::string HashOf(const std::vector<MessageDescription>& descriptions) {
   std::vector<MessageDescription> contained(descriptions.begin() + 1, descriptions.end());
   std::ranges::sort(contained, {}, &MessageDescription::name);
-  std::string text = "{\"type_description\": " + HashedText(descriptions.front()) +
-                     ", \"referenced_type_descriptions\": [";
-  for (const MessageDescription& message : contained) {
-    if (!text.ends_with('[')) text += ", ";
-    text += HashedText(message);
-  }
-  return "RIHS01_" + Sha256(text + "]}");
+  return "RIHS01_" +
+         Sha256("{\"type_description\": " + HashedText(descriptions.front()) +
+                ", \"referenced_type_descriptions\": [" + Join(contained, ", ", HashedText) + "]}");
 }
 
 }  // namespace

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace railcast {
+
+/// The texts of items one after another, such as "a, b, c".
+/// @param text_of Gives the text of an item.
+template <typename Items, typename TextOf = std::identity>
+[[nodiscard]] std::string Join(const Items& items,
+                               std::string_view separator = ", ",
+                               TextOf text_of = {}) {
+  std::string text;
+  for (const auto& item : items) {
+    if (!text.empty()) text += separator;
+    text += std::invoke(text_of, item);
+  }
+  return text;
+}
+
+/// As Join(), with another separator before the last item, such as "a, b or c".
+template <typename Items, typename TextOf = std::identity>
+[[nodiscard]] std::string JoinInProse(const Items& items,
+                                      std::string_view last_separator,
+                                      TextOf text_of = {}) {
+  std::string text;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (i > 0) text += i + 1 == items.size() ? last_separator : ", ";
+    text += std::invoke(text_of, items[i]);
+  }
+  return text;
+}
+
+}  // namespace railcast
