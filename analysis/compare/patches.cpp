@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "analysis/estimate/streams.h"
+#include "core/base/median.h"
 #include "core/points/point_spread.h"
 
 namespace railcast {
@@ -65,10 +66,7 @@ float RoughnessOf_m(std::span<const PointsInCube> cells) {
     if (cell.size() < kMinCellPoints) continue;
     deviations_m.push_back(std::sqrt(SpreadOf(cell).variances_m2[0]));
   }
-  if (deviations_m.empty()) return kUnknown;
-  const auto middle = deviations_m.begin() + static_cast<std::ptrdiff_t>(deviations_m.size() / 2);
-  std::ranges::nth_element(deviations_m, middle);
-  return static_cast<float>(*middle);
+  return static_cast<float>(MedianOf(deviations_m));
 }
 
 // The features that follow from the positions alone, in their order.

@@ -7,6 +7,7 @@
 #include "analysis/inspect/inspection.h"
 #include "analysis/report/cell_text.h"
 #include "core/base/join.h"
+#include "core/base/median.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 
@@ -41,13 +42,6 @@ class Findings {
   std::string title_;
   Table table_;
 };
-
-double MedianOf(std::vector<double> values) {
-  if (values.empty()) return std::nan("");
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 std::string ShareText(std::uint64_t part, std::uint64_t whole) {
   return ShortText(100.0 * static_cast<double>(part) /
@@ -138,7 +132,8 @@ Section TimesSection(const RecordingLook& seen) {
   if (seen.durations_s.empty()) {
     findings.Add("times of points", "none that are certain", "all points of a frame take its pose");
   } else {
-    findings.Add("span of a frame's times", ShortText(MedianOf(seen.durations_s)) + " s",
+    std::vector<double> durations_s = seen.durations_s;
+    findings.Add("span of a frame's times", ShortText(MedianOf(durations_s)) + " s",
                  "median of " + CountText(seen.durations_s.size()) + " frames");
   }
   return findings.MakeSection();
@@ -163,7 +158,8 @@ Section RingsSection(const RecordingLook& seen) {
   std::vector<double> points;
   for (const InspectedRing& ring : seen.rings)
     points.push_back(static_cast<double>(ring.num_points));
-  const double median = MedianOf(points);
+  std::vector<double> sorted = points;
+  const double median = MedianOf(sorted);
   std::vector<std::size_t> dead;
   std::vector<std::size_t> weak;
   std::vector<std::size_t> misordered;

@@ -6,6 +6,7 @@
 
 #include "analysis/stats/bins.h"
 #include "core/base/error.h"
+#include "core/base/median.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/detect/base/beam_optics.h"
@@ -68,13 +69,6 @@ double ErrorOf(const std::vector<IntensityCell>& cells) {
     errors.push_back(std::abs(cell.simulated / cell.recorded - 1.0));
   }
   return MeanOf(errors);
-}
-
-double MedianOfRatios(std::vector<double> values) {
-  if (values.empty()) return kNoFigure;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // A replay of planes that are equally bright everywhere, for the intensities.
@@ -218,7 +212,7 @@ double PresetComparison::PlaneSigmaRatio() const {
                          recorded.noise.planes()[i].RobustRangeSigma_m().value;
     if (std::isfinite(ratio)) ratios.push_back(ratio);
   }
-  return MedianOfRatios(ratios);
+  return MedianOf(ratios);
 }
 
 double PresetComparison::TemporalSigmaRatio() const {
@@ -230,7 +224,7 @@ double PresetComparison::TemporalSigmaRatio() const {
         simulated.temporal.bins()[i].RobustSigma_m().value / theirs[i].RobustSigma_m().value;
     if (std::isfinite(ratio)) ratios.push_back(ratio);
   }
-  return MedianOfRatios(ratios);
+  return MedianOf(ratios);
 }
 
 double PresetComparison::HoleRatio() const {

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/median.h"
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
 #include "core/io/field_layout.h"
-#include "core/io/recording/elevation_rings.h"
 
 namespace railcast {
 namespace {

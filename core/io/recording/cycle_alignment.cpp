@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/io/recording/elevation_rings.h"
+#include "core/base/median.h"
 #include "core/io/recording/ring_table.h"
 
 namespace railcast {

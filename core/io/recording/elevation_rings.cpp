@@ -3,9 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "core/base/median.h"
 #include "core/base/units.h"
 
 namespace railcast {
@@ -212,13 +212,6 @@ OriginStep StepOf(std::span<const LevelPoint> points,
 }
 
 }  // namespace
-
-double MedianOf(std::vector<double>& values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 double LevelPoint::ElevationFrom_rad(const std::array<double, 2>& origin_m) const {
   return std::atan2(up_m - origin_m[1], from_axis_m - origin_m[0]);

@@ -11,9 +11,6 @@ namespace railcast {
 
 inline constexpr std::size_t kMaxRings = 256;
 
-/// The median, or NaN if there are no values. Reorders the values.
-[[nodiscard]] double MedianOf(std::vector<double>& values);
-
 /// Returns the ring of each point by its elevation, 0 the lowest. Nothing is returned unless the
 /// elevations lie in 2 to kMaxRings clusters that hold 98 % of the points and of which none is
 /// wider than half its distance to the next. The remaining points belong to the nearest cluster.

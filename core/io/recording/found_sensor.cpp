@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/median.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/io/recording/elevation_rings.h"

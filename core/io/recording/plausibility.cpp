@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/median.h"
 #include "core/base/text.h"
 #include "core/io/recording/cloud_fields.h"
-#include "core/io/recording/elevation_rings.h"
 
 namespace railcast {
 namespace {

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/base/median.h"
 #include "core/base/text.h"
 #include "core/io/recording/elevation_rings.h"
 

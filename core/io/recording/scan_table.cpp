@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/io/recording/elevation_rings.h"
+#include "core/base/median.h"
 
 namespace railcast {
 namespace {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/median.h"
 #include "core/base/text.h"
 #include "generator/extras/survey/moving_things.h"
 #include "generator/extras/survey/survey_voxels.h"
@@ -52,9 +53,7 @@ double HeightAboveGround_m(const DrivenWay& way, const TilesByCell& tiles) {
         "--sensor-height: must be given, since no ground was seen below the sensor's way by which "
         "to tell the top of rail (got none)");
   }
-  const auto middle = heights_m.begin() + std::ssize(heights_m) / 2;
-  std::nth_element(heights_m.begin(), middle, heights_m.end());
-  return *middle;
+  return MedianOf(heights_m);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/median.h"
 #include "core/rail/line/track_course.h"
 
 namespace railcast {
@@ -163,9 +164,7 @@ double MedianWidth_m(const std::vector<EdgeMetre>& piece) {
   for (const EdgeMetre& metre : piece) {
     widths_m.push_back(metre.width_m.value_or(PlatformSpec{}.width_m));
   }
-  const auto middle = widths_m.begin() + static_cast<std::ptrdiff_t>(widths_m.size() / 2);
-  std::ranges::nth_element(widths_m, middle);
-  return *middle;
+  return MedianOf(widths_m);
 }
 
 /// Whether a platform of the world stands on the same side of the same track.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/median.h"
 #include "core/io/cloud/scan_motion.h"
 #include "core/io/recording/scan_table.h"
 #include "core/scan/firing.h"
@@ -70,10 +71,8 @@ bool LieInCells(const ScanPattern& pattern,
     turned_rad.push_back(TurnedFromBeam(pattern, firing, frame, slot));
   }
   if (num == 0) return frame.rows == pattern.rows && frame.columns == pattern.columns;
-  const auto middle = turned_rad.begin() + static_cast<std::ptrdiff_t>(turned_rad.size() / 2);
-  std::ranges::nth_element(turned_rad, middle);
   return static_cast<double>(num_on_beams) >= kLeastOnBeams * static_cast<double>(num) &&
-         std::abs(*middle) <= kMostTurned_rad;
+         std::abs(MedianOf(turned_rad)) <= kMostTurned_rad;
 }
 
 NewSlots ByCells(const ScanPattern& pattern, const Frame& frame) {

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/base/error.h"
+#include "core/base/median.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/io/recording/scan_table.h"
@@ -23,13 +24,6 @@ constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 /// How much a step may differ from the sensor's at its rate: rotors keep theirs to a few percent.
 constexpr double kMostStepError = 0.1;
-
-double MiddleOf(std::vector<double> values) {
-  if (values.empty()) return kUnknown;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 /// The sensor's channels by row, with azimuths to the left as the axes count them.
 struct Channels {
@@ -116,8 +110,8 @@ TurnRows RowsOfTurn(const ScanTable& table,
   const auto [least, most] = std::ranges::minmax(shifts_rad);
   const double size_rad = std::abs(step_rad);
   const bool are_cycles = most - least < 0.5 * size_rad;
-  const double shift_rad = are_cycles ? MiddleOf(shifts_rad) : MeanWithin(shifts_rad, size_rad);
-  const double rise_rad = MiddleOf(rises_rad);
+  const double shift_rad = are_cycles ? MedianOf(shifts_rad) : MeanWithin(shifts_rad, size_rad);
+  const double rise_rad = MedianOf(rises_rad);
   for (std::size_t c = 0; c < turn.azimuth_rad.size(); ++c) {
     turn.elevation_rad[c] += rise_rad;
     turn.azimuth_rad[c] += shift_rad;
@@ -227,7 +221,7 @@ class TurnFirings {
         const std::size_t cell = row * frame.columns + column;
         if (aims_[cell].has_point) late_us.push_back(TimeOfPoint(cell) - aims_[cell].rotor_us);
       }
-      late_us_[column] = MiddleOf(std::move(late_us));
+      late_us_[column] = MedianOf(late_us);
     }
     TakeFromNearest(late_us_);
   }

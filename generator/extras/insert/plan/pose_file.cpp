@@ -10,6 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
+#include "core/base/median.h"
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
 #include "core/base/units.h"
@@ -292,9 +293,7 @@ std::int64_t CheckSteps(const std::vector<std::int64_t>& stamps_ns,
     steps_ns.push_back(stamps_ns[i] - stamps_ns[i - 1]);
   }
   if (steps_ns.empty()) return 0;
-  const auto middle = steps_ns.begin() + static_cast<std::ptrdiff_t>(steps_ns.size() / 2);
-  std::ranges::nth_element(steps_ns, middle);
-  const std::int64_t median_ns = *middle;
+  const std::int64_t median_ns = MedianOf(steps_ns);
   const double step_s = SecondsFromNs(median_ns);
   if (IsFrameStep(step_s, most_step_s)) {
     const std::int64_t least_ns = *std::ranges::min_element(steps_ns);

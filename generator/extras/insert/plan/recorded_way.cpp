@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/median.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/io/recording/recording_kinds.h"
@@ -87,9 +88,7 @@ RegisteredPoses RegisterClouds(const std::filesystem::path& recording,
   registered.worst_residual_m = *worst;
   registered.worst_frame = static_cast<std::size_t>(worst - residuals_m.begin());
   residuals_m.erase(residuals_m.begin());  // The first frame has nothing to be laid on.
-  std::ranges::nth_element(
-      residuals_m, residuals_m.begin() + static_cast<std::ptrdiff_t>(residuals_m.size() / 2));
-  registered.median_residual_m = residuals_m[residuals_m.size() / 2];
+  registered.median_residual_m = MedianOf(residuals_m);
   return registered;
 }
 
@@ -206,9 +205,8 @@ void RemarkGaps(const std::vector<PosedFrame>& frames,
   }
   if (steps_ns.size() < 2) return;
   std::vector<std::int64_t> sorted = steps_ns;
-  std::ranges::nth_element(sorted, sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2));
   constexpr std::int64_t kUsualSteps = 3;
-  const std::int64_t most_ns = kUsualSteps * sorted[sorted.size() / 2];
+  const std::int64_t most_ns = kUsualSteps * MedianOf(sorted);
   const auto num_gaps = std::ranges::count_if(steps_ns, [&](auto step) { return step > most_ns; });
   if (num_gaps == 0) return;
   const auto longest = std::ranges::max_element(steps_ns);
