@@ -12,12 +12,12 @@
 #include <functional>
 #include <limits>
 #include <mutex>
-#include <numeric>
 #include <optional>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 
+#include "core/base/joined_sets.h"
 #include "core/mesh/mesh_deviation.h"
 #include "core/scene/polygon.h"
 
@@ -62,15 +62,6 @@ struct ConnectedPiece {
   bool is_changed = false;
 };
 
-/// Finds the number of the first of those that hang together.
-std::uint32_t RootOf(std::vector<std::uint32_t>& parents, std::uint32_t place) {
-  while (parents[place] != place) {
-    parents[place] = parents[parents[place]];
-    place = parents[place];
-  }
-  return place;
-}
-
 /// Cuts parts into what hangs together.
 class PieceCutter {
  public:
@@ -107,18 +98,15 @@ class PieceCutter {
 
   void Cut(const std::vector<PlaceTriangle>& triangles, std::size_t part) {
     constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> parents(places_.points().size());
-    std::iota(parents.begin(), parents.end(), 0U);
+    JoinedSets joined(places_.points().size());
     for (const auto& [a, b, c] : triangles) {
-      const std::uint32_t root = RootOf(parents, a);
-      parents[RootOf(parents, b)] = root;
-      parents[RootOf(parents, c)] = root;
+      joined.Join(a, b);
+      joined.Join(a, c);
     }
-    std::unordered_map<std::uint32_t, std::size_t> piece_of_root;
+    std::unordered_map<std::size_t, std::size_t> piece_of_set;
     std::fill(number_in_piece_.begin(), number_in_piece_.end(), kNone);
     for (PlaceTriangle triangle : triangles) {
-      const auto [it, is_new] =
-          piece_of_root.try_emplace(RootOf(parents, triangle[0]), pieces_.size());
+      const auto [it, is_new] = piece_of_set.try_emplace(joined.SetOf(triangle[0]), pieces_.size());
       if (is_new) pieces_.emplace_back().part = part;
       ConnectedPiece& piece = pieces_[it->second];
       for (std::uint32_t& corner : triangle) {

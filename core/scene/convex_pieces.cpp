@@ -5,7 +5,8 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <numeric>
+
+#include "core/base/joined_sets.h"
 
 namespace railcast {
 namespace {
@@ -14,26 +15,6 @@ namespace {
 constexpr std::size_t kMaxCorners = 5000;
 
 using Triangle = std::array<Vector3, 3>;
-
-/// Sets of corners that triangles join.
-class JoinedVertices {
- public:
-  explicit JoinedVertices(std::size_t num) : parent_(num) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  [[nodiscard]] std::size_t SetOf(std::size_t item) {
-    while (parent_[item] != item) item = parent_[item] = parent_[parent_[item]];
-    return item;
-  }
-  void Join(std::size_t one, std::size_t other) {
-    one = SetOf(one);
-    other = SetOf(other);
-    parent_[std::max(one, other)] = std::min(one, other);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 using Corners = std::array<std::size_t, 3>;
 
@@ -62,7 +43,7 @@ std::vector<std::size_t> PlacesOfVertices(const Mesh& mesh) {
 /// together. Triangles without area are left out.
 std::vector<std::vector<Corners>> GatherPieces(const Mesh& mesh) {
   const std::vector<std::size_t> places = PlacesOfVertices(mesh);
-  JoinedVertices joined(mesh.vertices.size());
+  JoinedSets joined(mesh.vertices.size());
   std::vector<Corners> triangles;
   for (const auto& indices : mesh.triangles) {
     const Corners corners = {places[indices[0]], places[indices[1]], places[indices[2]]};

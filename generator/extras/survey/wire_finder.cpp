@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 
+#include "core/base/joined_sets.h"
 #include "core/points/nearest_points.h"
 #include "core/points/point_spread.h"
 
@@ -40,24 +40,6 @@ bool IsHigh(const MadeSurfel& surfel, const DrivenWay& way) {
   return above_m >= kLeastHeight_m && std::abs(offset_m.y()) <= kMostAside_m;
 }
 
-/// Which of some things belong together.
-class Groups {
- public:
-  explicit Groups(std::size_t num) : parents_(num) {
-    std::iota(parents_.begin(), parents_.end(), std::size_t{0});
-  }
-  std::size_t Of(std::size_t i) {
-    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
-    return i;
-  }
-  void Join(std::size_t a, std::size_t b) {
-    parents_[std::max(Of(a), Of(b))] = std::min(Of(a), Of(b));
-  }
-
- private:
-  std::vector<std::size_t> parents_;
-};
-
 /// Groups candidates, given by their indices, that follow one another along a line.
 std::map<std::size_t, std::vector<std::size_t>> Chains(const std::vector<MadeSurfel>& surfels,
                                                        const std::vector<std::size_t>& candidates) {
@@ -68,7 +50,7 @@ std::map<std::size_t, std::vector<std::size_t>> Chains(const std::vector<MadeSur
     points_m.emplace_back((surfels[i].center_m - origin_m).cast<float>());
   }
   const NearestSearch search(points_m);
-  Groups groups(candidates.size());
+  JoinedSets groups(candidates.size());
   std::vector<std::uint32_t> found;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Eigen::Vector3f direction = surfels[candidates[i]].half_u_m.normalized();
@@ -85,7 +67,7 @@ std::map<std::size_t, std::vector<std::size_t>> Chains(const std::vector<MadeSur
   }
   std::map<std::size_t, std::vector<std::size_t>> chains;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    chains[groups.Of(i)].push_back(candidates[i]);
+    chains[groups.SetOf(i)].push_back(candidates[i]);
   }
   return chains;
 }
