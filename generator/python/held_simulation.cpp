@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/recording/sequence_lines.h"
 #include "core/scenario/command.h"
 #include "railcast/fidelity.h"
 #include "railcast/lidar.h"
@@ -41,26 +42,6 @@ Command CommandOf(const std::string& line, const std::vector<ModelSpec>& models)
   for (std::string& fault : read.faults) faults.AddLine(std::move(fault));
   faults.ThrowIfAny();
   throw InputError("command: must not be empty");
-}
-
-std::optional<std::uint32_t> TimeOfPoints(const ObjectInFrame& object) {
-  if (object.points == 0) return std::nullopt;
-  return object.points_time_ns;
-}
-
-RecordedObject RecordedOf(ObjectInFrame object, const Transform& sensor_from_world) {
-  return {.name = std::move(object.name),
-          .type = std::move(object.type),
-          .label = std::move(object.label),
-          .instance = object.instance,
-          .size_m = object.size_m,
-          .sensor_from_box = sensor_from_world * object.world_from_box,
-          .velocity_world_mps = object.velocity_world_mps,
-          .points = object.points,
-          .points_time_ns = TimeOfPoints(object),
-          .firings_visible = object.view.firings_visible,
-          .firings_alone = object.view.firings_alone,
-          .occlusion = object.view.occlusion()};
 }
 
 }  // namespace
@@ -176,10 +157,10 @@ void HeldSimulation::Make(std::uint32_t frame,
   const auto begun = simulator.Begin(frame);
   made.objects.clear();
   if (has_objects) {
-    std::vector<ObjectInFrame> objects = maker_.ScanAndDescribe(sensor, *begun, made.frame);
+    const auto objects = maker_.ScanAndDescribe(sensor, *begun, made.frame);
     const Transform sensor_from_world = made.frame.world_from_sensor.inverse();
-    for (ObjectInFrame& object : objects) {
-      made.objects.push_back(RecordedOf(std::move(object), sensor_from_world));
+    for (const ObjectInFrame& object : objects) {
+      made.objects.push_back(RecordedOf(object, sensor_from_world));
     }
   } else {
     simulator.Scan(*begun, made.frame);

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/base/error.h"
+#include "core/io/recording/sequence_lines.h"
 #include "railcast/lidar.h"
 
 namespace railcast {
@@ -38,19 +39,6 @@ Frame EmptyFrame(const Simulator& simulator, std::uint32_t index, std::uint32_t 
   frame.world_from_sensor = simulator.WorldFromSensor(frame.stamp_ns);
   frame.world_from_sensor_end = simulator.WorldFromSensor(frame.stamp_ns + duration_ns);
   return frame;
-}
-
-RecordedObject ToRecorded(const ObjectInFrame& object, const Frame& frame) {
-  return {.name = object.name,
-          .type = object.type,
-          .label = object.label,
-          .instance = object.instance,
-          .size_m = object.size_m,
-          .sensor_from_box = frame.world_from_sensor.inverse() * object.world_from_box,
-          .velocity_world_mps = object.velocity_world_mps,
-          .points = object.points,
-          .points_time_ns = object.points > 0 ? std::optional(object.points_time_ns)
-                                              : std::optional<std::uint32_t>()};
 }
 
 /// An object whose detection is sought.
@@ -136,9 +124,10 @@ std::optional<RunCourses> ApproachScanner::Follow(const ScenarioSpec& scenario,
     if (!pattern.repeats()) duration_ns = DurationOf_ns(PatternOfFrame(pattern, index));
     RecordedFrame recorded;
     recorded.frame = EmptyFrame(simulator, index, duration_ns);
+    const Transform sensor_from_world = recorded.frame.world_from_sensor.inverse();
     for (const ObjectInFrame& object : survey.Describe(recorded.frame, no_views)) {
       if (!IsAskedAbout(object.name, objects_)) continue;
-      recorded.objects.push_back(ToRecorded(object, recorded.frame));
+      recorded.objects.push_back(RecordedOf(object, sensor_from_world));
     }
     AddFrame(recorded, vehicle_from_sensor, own_track, courses);
   }
@@ -204,8 +193,9 @@ std::optional<EvaluatedRun> ApproachScanner::Evaluate(const ScenarioSpec& scenar
       recorded_.fields.emplace(name);
     });
     recorded_.objects.clear();
+    const Transform sensor_from_world = recorded_.frame.world_from_sensor.inverse();
     for (const ObjectInFrame& object : survey.Describe(recorded_.frame, no_views)) {
-      recorded_.objects.push_back(ToRecorded(object, recorded_.frame));
+      recorded_.objects.push_back(RecordedOf(object, sensor_from_world));
     }
     evaluator.Add(recorded_,
                   {FindClusters(recorded_, vehicle_from_sensor, own_track, detector, range_max_m)});

@@ -1,7 +1,6 @@
 #include "core/io/recording/sequence_lines.h"
 
 #include "core/io/cloud/kitti.h"
-#include "core/io/run/object_record.h"
 
 namespace railcast {
 
@@ -24,6 +23,22 @@ std::vector<RecordedObject> ReadObjectsLine(std::string_view line,
                        .occlusion = record.occlusion});
   }
   return objects;
+}
+
+RecordedObject RecordedOf(const ObjectInFrame& object, const Transform& sensor_from_world) {
+  RecordedObject recorded{.name = object.name,
+                          .type = object.type,
+                          .label = object.label,
+                          .instance = object.instance,
+                          .size_m = object.size_m,
+                          .sensor_from_box = sensor_from_world * object.world_from_box,
+                          .velocity_world_mps = object.velocity_world_mps,
+                          .points = object.points,
+                          .firings_visible = object.view.firings_visible,
+                          .firings_alone = object.view.firings_alone,
+                          .occlusion = object.view.occlusion()};
+  if (object.points > 0) recorded.points_time_ns = object.points_time_ns;
+  return recorded;
 }
 
 std::string KittiClassOf(const RecordedObject& object,

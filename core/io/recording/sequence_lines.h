@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/io/run/object_survey.h"
 #include "railcast/io/recording.h"
 
 namespace railcast {
@@ -15,6 +16,10 @@ namespace railcast {
 [[nodiscard]] std::vector<RecordedObject> ReadObjectsLine(std::string_view line,
                                                           std::uint32_t frame,
                                                           const std::string& place);
+
+/// An object of a frame as ReadObjectsLine() gives it, but with no number rounded.
+[[nodiscard]] RecordedObject RecordedOf(const ObjectInFrame& object,
+                                        const Transform& sensor_from_world);
 
 /// The name of the class of SemanticKITTI that the object's points have: of the moving one if it
 /// moves. Its own label if there is none.

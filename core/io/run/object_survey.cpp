@@ -38,12 +38,10 @@ ObjectRecord RecordOf(const ObjectInFrame& object, const Transform& sensor_from_
                       .points = object.points,
                       .firings_visible = object.view.firings_visible,
                       .firings_alone = object.view.firings_alone,
-                      .occlusion = object.view.occlusion()};
+                      .occlusion = object.view.occlusion(),
+                      .contacts = object.contacts};
   if (object.points > 0) record.points_time_ns = object.points_time_ns;
-  for (const ContactInFrame& contact : object.contacts) {
-    record.contacts.push_back(
-        {contact.with, contact.is_overlap, ToTenthOfMillimetre(contact.gap_m)});
-  }
+  for (ContactRecord& contact : record.contacts) contact.gap_m = ToTenthOfMillimetre(contact.gap_m);
   return record;
 }
 

@@ -15,13 +15,6 @@
 
 namespace railcast {
 
-/// Something that an object touches or overlaps.
-struct ContactInFrame {
-  std::string with;  ///< Name of the other object.
-  bool is_overlap{};
-  double gap_m{};  ///< As ObjectContact::gap_m.
-};
-
 /// One object as seen in one frame.
 struct ObjectInFrame {
   std::string name;
@@ -38,7 +31,7 @@ struct ObjectInFrame {
   std::uint32_t points{};          ///< Slots with a point on the object.
   std::uint32_t points_time_ns{};  ///< Mean time of those points since the stamp.
   ObjectView view{};
-  std::vector<ContactInFrame> contacts{};  ///< At the stamp, in the world's order.
+  std::vector<ContactRecord> contacts{};  ///< At the stamp, in the world's order.
 };
 
 /// What objects.jsonl says of a frame's objects.

@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/detect/base/beam_optics.h"
 #include "core/extras/packets/velodyne/velodyne_packet.h"
+#include "core/io/recording/sequence_lines.h"
 #include "core/io/run/object_survey.h"
 #include "core/scan/firing.h"
 #include "core/simulate/returns.h"
@@ -168,22 +169,6 @@ void FillPhotons(const RecordedFrame& before, InsertedFrame& inserted) {
   }
 }
 
-RecordedObject Recorded(const ObjectInFrame& object, const Transform& sensor_from_world) {
-  RecordedObject recorded{.name = object.name,
-                          .type = object.type,
-                          .label = object.label,
-                          .instance = object.instance,
-                          .size_m = object.size_m,
-                          .sensor_from_box = sensor_from_world * object.world_from_box,
-                          .velocity_world_mps = object.velocity_world_mps,
-                          .points = object.points,
-                          .firings_visible = object.view.firings_visible,
-                          .firings_alone = object.view.firings_alone,
-                          .occlusion = object.view.occlusion()};
-  if (object.points > 0) recorded.points_time_ns = object.points_time_ns;
-  return recorded;
-}
-
 }  // namespace
 
 struct Inserter::Parts {
@@ -329,7 +314,7 @@ struct Inserter::Parts {
     const Transform sensor_from_world = frame.world_from_sensor.inverse();
     std::vector<RecordedObject> objects;
     for (const ObjectInFrame& object : survey.Describe(frame, views)) {
-      objects.push_back(Recorded(object, sensor_from_world));
+      objects.push_back(RecordedOf(object, sensor_from_world));
     }
     return objects;
   }
