@@ -15,17 +15,12 @@ namespace railcast {
 UnfinishedFile::UnfinishedFile(std::filesystem::path file, std::uint64_t size)
     : file_(std::move(file)), target_(FileToReplace(file_)) {
   constexpr int kAccess = 0644;
-  descriptor_ = ::open(unfinished().c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kAccess);
-  if (descriptor_ < 0) throw FileError(file_, errno);
+  descriptor_ = FileDescriptor(::open(unfinished().c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kAccess));
   const auto kept = static_cast<off_t>(size);
-  if (::ftruncate(descriptor_, kept) == 0 && ::lseek(descriptor_, kept, SEEK_SET) == kept) return;
-  const int reason = errno;
-  ::close(descriptor_);
-  throw FileError(file_, reason);
-}
-
-UnfinishedFile::~UnfinishedFile() {
-  ::close(descriptor_);
+  if (!descriptor_.is_open() || ::ftruncate(descriptor_.number(), kept) != 0 ||
+      ::lseek(descriptor_.number(), kept, SEEK_SET) != kept) {
+    throw FileError(file_, errno);
+  }
 }
 
 std::filesystem::path UnfinishedFile::unfinished() const {
@@ -34,7 +29,7 @@ std::filesystem::path UnfinishedFile::unfinished() const {
 
 void UnfinishedFile::Append(std::span<const std::byte> bytes) const {
   while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    const ssize_t written = ::write(descriptor_.number(), bytes.data(), bytes.size());
     if (written < 0 && errno != EINTR) throw FileError(file_, errno);
     if (written > 0) bytes = bytes.subspan(static_cast<std::size_t>(written));
   }
@@ -52,25 +47,25 @@ void UnfinishedFile::AppendFile(const std::filesystem::path& source) const {
 
 std::string UnfinishedFile::Read(std::uint64_t place, std::size_t size) const {
   std::string bytes(size, '\0');
-  const ssize_t got = ::pread(descriptor_, bytes.data(), size, static_cast<off_t>(place));
+  const ssize_t got = ::pread(descriptor_.number(), bytes.data(), size, static_cast<off_t>(place));
   if (got < 0 || static_cast<std::size_t>(got) != size) throw FileError(file_, errno);
   return bytes;
 }
 
 void UnfinishedFile::Overwrite(std::uint64_t place, std::span<const char> bytes) const {
   const ssize_t written =
-      ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(place));
+      ::pwrite(descriptor_.number(), bytes.data(), bytes.size(), static_cast<off_t>(place));
   if (written < 0 || static_cast<std::size_t>(written) != bytes.size()) {
     throw FileError(file_, errno);
   }
 }
 
 void UnfinishedFile::Sync() const {
-  if (::fdatasync(descriptor_) != 0) throw FileError(file_, errno);
+  if (::fdatasync(descriptor_.number()) != 0) throw FileError(file_, errno);
 }
 
 void UnfinishedFile::Finish() const {
-  if (::fsync(descriptor_) != 0 || ::rename(unfinished().c_str(), target_.c_str()) != 0) {
+  if (::fsync(descriptor_.number()) != 0 || ::rename(unfinished().c_str(), target_.c_str()) != 0) {
     throw FileError(file_, errno);
   }
 }

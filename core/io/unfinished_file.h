@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/file_descriptor.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
@@ -25,9 +26,6 @@ class UnfinishedFile {
  public:
   /// @param size What is kept of the unfinished file.
   UnfinishedFile(std::filesystem::path file, std::uint64_t size);
-  ~UnfinishedFile();
-  UnfinishedFile(const UnfinishedFile&) = delete;
-  UnfinishedFile& operator=(const UnfinishedFile&) = delete;
 
   void Append(std::span<const std::byte> bytes) const;
   /// Appends the content of another file.
@@ -49,7 +47,7 @@ class UnfinishedFile {
 
   std::filesystem::path file_;
   std::filesystem::path target_;
-  int descriptor_{};
+  FileDescriptor descriptor_;
 };
 
 }  // namespace railcast

@@ -7,30 +7,10 @@
 #include <cerrno>
 #include <system_error>
 
+#include "core/base/file_descriptor.h"
+
 namespace railcast {
 namespace {
-
-/// An open file descriptor that is closed when it goes out of scope.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  [[nodiscard]] int number() const { return number_; }
-  /// Closes the descriptor and checks the result: some file systems report a full disk only here.
-  [[nodiscard]] bool Close() {
-    const int number = number_;
-    number_ = -1;
-    return ::close(number) == 0;
-  }
-
- private:
-  int number_;
-};
 
 bool WriteAll(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
@@ -55,12 +35,13 @@ std::filesystem::path UnfinishedOf(const std::filesystem::path& target) {
 }
 
 // @param file Named in the error if opening fails.
-Descriptor OpenUnfinished(const std::filesystem::path& file,
-                          const std::filesystem::path& unfinished) {
+FileDescriptor OpenUnfinished(const std::filesystem::path& file,
+                              const std::filesystem::path& unfinished) {
   constexpr int kAccess = 0644;
-  const int number = ::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kAccess);
-  if (number < 0) throw FileError(file, errno);
-  return Descriptor(number);
+  FileDescriptor output(
+      ::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kAccess));
+  if (!output.is_open()) throw FileError(file, errno);
+  return output;
 }
 
 }  // namespace
@@ -92,7 +73,7 @@ void CheckCanWrite(const std::filesystem::path& file) {
 void WriteFileWhole(const std::filesystem::path& file, std::string_view bytes) {
   const std::filesystem::path target = FileToReplace(file);
   const std::filesystem::path unfinished = UnfinishedOf(target);
-  Descriptor output = OpenUnfinished(file, unfinished);
+  FileDescriptor output = OpenUnfinished(file, unfinished);
   const bool is_written = WriteAll(output.number(), bytes) &&
                           HasLength(output.number(), bytes.size()) &&
                           ::fsync(output.number()) == 0 && output.Close() &&

@@ -1,13 +1,11 @@
 #include "core/io/net/socket.h"
 
 #include <netinet/in.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <string>
-#include <utility>
 
 #include "core/base/error.h"
 
@@ -74,13 +72,7 @@ Endpoint EndpointOf(const SocketAddress& address) {
 UdpSocket::UdpSocket(const IpAddress& family)
     : socket_(::socket(
           family.is_ipv4() ? AF_INET : AF_INET6, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)) {
-  if (socket_ < 0) throw InputError("no socket: " + std::string(std::strerror(errno)));
-}
-
-UdpSocket::UdpSocket(UdpSocket&& other) noexcept : socket_(std::exchange(other.socket_, -1)) {}
-
-UdpSocket::~UdpSocket() {
-  if (socket_ >= 0) ::close(socket_);
+  if (!socket_.is_open()) throw InputError("no socket: " + std::string(std::strerror(errno)));
 }
 
 UdpSocket SocketTo(const Endpoint& to, int multicast_hops) {

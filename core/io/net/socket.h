@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "core/base/file_descriptor.h"
 #include "railcast/io/endpoint.h"
 
 namespace railcast {
@@ -25,19 +26,16 @@ class UdpSocket {
   /// @param family Of which addresses it is.
   /// @throws InputError if the system has none, as a machine without IPv6.
   explicit UdpSocket(const IpAddress& family);
-  UdpSocket(UdpSocket&& other) noexcept;
-  UdpSocket& operator=(UdpSocket&&) = delete;
-  ~UdpSocket();
 
-  [[nodiscard]] int get() const { return socket_; }
+  [[nodiscard]] int get() const { return socket_.number(); }
 
   template <typename Value>
   [[nodiscard]] bool Set(int level, int option, const Value& value) const {
-    return ::setsockopt(socket_, level, option, &value, sizeof value) == 0;
+    return ::setsockopt(get(), level, option, &value, sizeof value) == 0;
   }
 
  private:
-  int socket_;
+  FileDescriptor socket_;
 };
 
 /// Makes a socket that is to send to an endpoint: it may broadcast where that is a broadcast, and

@@ -74,13 +74,14 @@ bool Bind(const UdpSocket& socket, const Endpoint& at) {
 }  // namespace
 
 UdpReceiver::UdpReceiver(const Endpoint& at)
-    : socket_(at.address), at_(at), buffer_(kMaxDatagramBytes) {
-  wake_ = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    : socket_(at.address),
+      wake_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
+      at_(at),
+      buffer_(kMaxDatagramBytes) {
   SocketAddress bound;
-  if (wake_ < 0 || !Bind(socket_, at) ||
+  if (!wake_.is_open() || !Bind(socket_, at) ||
       ::getsockname(socket_.get(), bound.get(), &bound.size) != 0) {
     const int error = errno;
-    if (wake_ >= 0) ::close(wake_);
     throw InputError("cannot listen: " + std::string(std::strerror(error)) + " (got " +
                      EndpointText(at) + ")");
   }
@@ -89,10 +90,6 @@ UdpReceiver::UdpReceiver(const Endpoint& at)
   // A kernel that does not know of it gives single datagrams.
   const int yes = 1;
   static_cast<void>(socket_.Set(SOL_UDP, UDP_GRO, yes));
-}
-
-UdpReceiver::~UdpReceiver() {
-  ::close(wake_);
 }
 
 bool UdpReceiver::TakeFromSocket() {
@@ -124,7 +121,7 @@ bool UdpReceiver::TakeFromSocket() {
 std::optional<UdpReceiver::Received> UdpReceiver::Receive(int timeout_ms) {
   if (is_ended_) return std::nullopt;
   if (!waiting_.empty()) return NextWaiting();
-  std::array<pollfd, 2> waits{pollfd{socket_.get(), POLLIN, 0}, pollfd{wake_, POLLIN, 0}};
+  std::array<pollfd, 2> waits{pollfd{socket_.get(), POLLIN, 0}, pollfd{wake_.number(), POLLIN, 0}};
   if (::poll(waits.data(), waits.size(), timeout_ms) <= 0) return std::nullopt;
   if (waits[1].revents != 0) return std::nullopt;
   if (!TakeFromSocket()) return std::nullopt;
@@ -142,11 +139,11 @@ void UdpReceiver::Interrupt() const {
   is_ended_ = true;
   const std::uint64_t one = 1;
   // The counter is never read back, so it stays set and every later wait ends at once.
-  static_cast<void>(!::write(wake_, &one, sizeof one));
+  static_cast<void>(!::write(wake_.number(), &one, sizeof one));
 }
 
 bool UdpReceiver::is_interrupted() const {
-  pollfd wake{wake_, POLLIN, 0};
+  pollfd wake{wake_.number(), POLLIN, 0};
   return ::poll(&wake, 1, 0) > 0;
 }
 

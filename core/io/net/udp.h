@@ -23,9 +23,6 @@ class UdpReceiver {
   ///   0 takes a free port.
   /// @throws InputError if the port is taken or not allowed, or if the group cannot be joined.
   explicit UdpReceiver(const Endpoint& at);
-  ~UdpReceiver();
-  UdpReceiver(const UdpReceiver&) = delete;
-  UdpReceiver& operator=(const UdpReceiver&) = delete;
 
   [[nodiscard]] const Endpoint& at() const { return at_; }
 
@@ -50,7 +47,7 @@ class UdpReceiver {
   [[nodiscard]] Received NextWaiting();
 
   UdpSocket socket_;
-  int wake_ = -1;
+  FileDescriptor wake_;
   Endpoint at_;
   std::vector<char> buffer_;
   std::span<const char> waiting_;  ///< Datagrams that were taken together, in `buffer_`.

@@ -66,15 +66,10 @@ std::string MendedText(const std::vector<std::string>& faults) {
 
 FolderLock::FolderLock(const std::filesystem::path& folder) {
   MakeFolders(folder);
-  descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor_ < 0) throw FileError(folder, errno);
-  if (LockFolder(descriptor_)) return;
-  ::close(descriptor_);
+  descriptor_ = FileDescriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!descriptor_.is_open()) throw FileError(folder, errno);
+  if (LockFolder(descriptor_.number())) return;
   throw InputError(ShownPath(folder) + ": another run is writing here");
-}
-
-FolderLock::~FolderLock() {
-  ::close(descriptor_);
 }
 
 LineFile::LineFile(std::filesystem::path file, std::uint64_t keep_bytes)
@@ -89,33 +84,22 @@ LineFile::LineFile(std::filesystem::path file, std::uint64_t keep_bytes)
     if (error) throw FileError(file_, error.value());
   }
   constexpr int kAccess = 0644;
-  descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, kAccess);
-  if (descriptor_ < 0) throw FileError(file_, errno);
-  if (::ftruncate(descriptor_, static_cast<off_t>(size_)) == 0) return;
-  const int error_number = errno;
-  ::close(descriptor_);
-  throw FileError(file_, error_number);
-}
-
-LineFile::LineFile(LineFile&& other) noexcept
-    : file_(std::move(other.file_)),
-      size_(other.size_),
-      descriptor_(std::exchange(other.descriptor_, -1)) {}
-
-LineFile::~LineFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  descriptor_ = FileDescriptor(::open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, kAccess));
+  if (!descriptor_.is_open() || ::ftruncate(descriptor_.number(), static_cast<off_t>(size_)) != 0) {
+    throw FileError(file_, errno);
+  }
 }
 
 void LineFile::Append(std::string_view lines) {
   const std::uint64_t whole = size_;
   while (!lines.empty()) {
     const ssize_t written =
-        ::pwrite(descriptor_, lines.data(), lines.size(), static_cast<off_t>(size_));
+        ::pwrite(descriptor_.number(), lines.data(), lines.size(), static_cast<off_t>(size_));
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) {
       const int error_number = errno;
       // If this fails, too, resuming the run drops the incomplete line.
-      size_ = ::ftruncate(descriptor_, static_cast<off_t>(whole)) == 0 ? whole : size_;
+      size_ = ::ftruncate(descriptor_.number(), static_cast<off_t>(whole)) == 0 ? whole : size_;
       throw FileError(file_, error_number);
     }
     lines.remove_prefix(static_cast<std::size_t>(written));
@@ -124,7 +108,7 @@ void LineFile::Append(std::string_view lines) {
 }
 
 void LineFile::Sync() {
-  if (::fsync(descriptor_) != 0) throw FileError(file_, errno);
+  if (::fsync(descriptor_.number()) != 0) throw FileError(file_, errno);
 }
 
 }  // namespace railcast

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/file_descriptor.h"
+
 namespace railcast {
 
 /// Makes the folder that a run writes to, if there is none, and keeps other processes of railcast
@@ -15,12 +17,9 @@ class FolderLock {
   /// @throws InputError if the folder cannot be made or opened, or "FOLDER: another run is writing
   ///   here".
   explicit FolderLock(const std::filesystem::path& folder);
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
 
  private:
-  int descriptor_;
+  FileDescriptor descriptor_;
 };
 
 /// A text file that grows line by line.
@@ -29,11 +28,6 @@ class LineFile {
   /// Opens or creates the file and truncates it to its first `keep_bytes`.
   /// @throws InputError if the system refuses.
   LineFile(std::filesystem::path file, std::uint64_t keep_bytes);
-  ~LineFile();
-  LineFile(LineFile&& other) noexcept;
-  LineFile& operator=(LineFile&&) = delete;
-  LineFile(const LineFile&) = delete;
-  LineFile& operator=(const LineFile&) = delete;
 
   /// Appends whole lines, or nothing on failure.
   /// @throws InputError if the system refuses, for example on a full disk.
@@ -46,7 +40,7 @@ class LineFile {
  private:
   std::filesystem::path file_;
   std::uint64_t size_;
-  int descriptor_;
+  FileDescriptor descriptor_;
 };
 
 /// Whether a path leads to a folder or into it, links followed. Neither need exist.

@@ -2,13 +2,13 @@
 
 #include <fcntl.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <string>
 #include <system_error>
 
 #include "core/base/error.h"
+#include "core/base/file_descriptor.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/extras/ros/mcap/compression.h"
@@ -41,15 +41,10 @@ void TemporaryCopy::Add(const std::filesystem::path& file) const {
 std::filesystem::path TemporaryCopy::AddUncompressed(const std::filesystem::path& file) const {
   std::filesystem::path copy = folder_ / file.stem();
   constexpr int kAccess = 0600;
-  const int descriptor = ::open(copy.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kAccess);
-  if (descriptor < 0) throw FileError(copy, errno);
-  try {
-    mcap::UncompressFile(file, descriptor, kMaxRatio);
-  } catch (...) {
-    ::close(descriptor);
-    throw;
-  }
-  ::close(descriptor);
+  const FileDescriptor opened(
+      ::open(copy.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kAccess));
+  if (!opened.is_open()) throw FileError(copy, errno);
+  mcap::UncompressFile(file, opened.number(), kMaxRatio);
   return copy;
 }
 

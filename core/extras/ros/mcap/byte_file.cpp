@@ -14,14 +14,10 @@ namespace railcast::mcap {
 
 ByteFile::ByteFile(const std::filesystem::path& file, std::string name) : name_(std::move(name)) {
   CheckIsReadable(file);
-  descriptor_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor_ < 0) throw FileError(file, errno);
-  const off_t end = ::lseek(descriptor_, 0, SEEK_END);
+  descriptor_ = FileDescriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!descriptor_.is_open()) throw FileError(file, errno);
+  const off_t end = ::lseek(descriptor_.number(), 0, SEEK_END);
   size_ = end < 0 ? 0 : static_cast<std::uint64_t>(end);
-}
-
-ByteFile::~ByteFile() {
-  ::close(descriptor_);
 }
 
 Bytes ByteFile::Read(std::uint64_t offset, std::size_t size) const {
@@ -29,7 +25,7 @@ Bytes ByteFile::Read(std::uint64_t offset, std::size_t size) const {
   Bytes bytes(size);
   std::size_t num_read = 0;
   while (num_read < size) {
-    const ssize_t got = ::pread(descriptor_, bytes.data() + num_read, size - num_read,
+    const ssize_t got = ::pread(descriptor_.number(), bytes.data() + num_read, size - num_read,
                                 static_cast<off_t>(offset + num_read));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) throw FileError(name_, errno);

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "core/base/file_descriptor.h"
 #include "core/extras/ros/mcap/mcap_records.h"
 
 namespace railcast::mcap {
@@ -16,9 +17,6 @@ class ByteFile {
   /// @param name Names it in messages.
   /// @throws InputError "file: rule" if it cannot be opened or is no regular file.
   ByteFile(const std::filesystem::path& file, std::string name);
-  ~ByteFile();
-  ByteFile(const ByteFile&) = delete;
-  ByteFile& operator=(const ByteFile&) = delete;
 
   [[nodiscard]] std::uint64_t size() const { return size_; }
   /// As messages show it.
@@ -31,7 +29,7 @@ class ByteFile {
 
  private:
   std::string name_;
-  int descriptor_{};
+  FileDescriptor descriptor_;
   std::uint64_t size_{};
 };
 
