@@ -38,6 +38,14 @@ struct Datagrams {
   [[nodiscard]] std::span<const char> BytesOf(const Item& item) const {
     return std::span(bytes).subspan(item.offset, item.size);
   }
+  /// Appends a datagram.
+  /// @param item All but where its bytes are, which is set.
+  void Append(std::span<const char> datagram, Item item) {
+    item.offset = bytes.size();
+    item.size = static_cast<std::uint32_t>(datagram.size());
+    items.push_back(item);
+    bytes.insert(bytes.end(), datagram.begin(), datagram.end());
+  }
   /// Removes all datagrams but keeps the allocated memory.
   void Clear() {
     bytes.clear();

@@ -14,11 +14,7 @@ inline void AddDatagram(std::span<const char> bytes,
                         Datagrams& datagrams,
                         DatagramPort port = DatagramPort::kData,
                         std::int64_t due_ns = 0) {
-  datagrams.items.push_back({.offset = datagrams.bytes.size(),
-                             .size = static_cast<std::uint32_t>(bytes.size()),
-                             .port = port,
-                             .due_ns = due_ns});
-  datagrams.bytes.insert(datagrams.bytes.end(), bytes.begin(), bytes.end());
+  datagrams.Append(bytes, {.port = port, .due_ns = due_ns});
 }
 
 /// Returns a datagram for the data port with each of these bytes.

@@ -13,14 +13,9 @@ void AppendMessage(std::size_t topic,
                    std::span<const std::byte> cdr,
                    std::int64_t due_ns,
                    Datagrams& datagrams) {
-  const std::size_t offset = datagrams.bytes.size();
-  const auto* bytes = reinterpret_cast<const char*>(cdr.data());
-  datagrams.bytes.insert(datagrams.bytes.end(), bytes, bytes + cdr.size());
-  datagrams.items.push_back({.offset = offset,
-                             .size = static_cast<std::uint32_t>(cdr.size()),
-                             .port = DatagramPort::kData,
-                             .due_ns = due_ns,
-                             .topic = static_cast<std::uint16_t>(topic)});
+  datagrams.Append(
+      {reinterpret_cast<const char*>(cdr.data()), cdr.size()},
+      {.port = DatagramPort::kData, .due_ns = due_ns, .topic = static_cast<std::uint16_t>(topic)});
 }
 
 RosWriters::RosWriters(std::unique_ptr<dds::Participant> participant,

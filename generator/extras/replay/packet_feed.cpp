@@ -55,12 +55,9 @@ void PacketFeed::Take(Datagrams& datagrams) {
   while (!turn_.empty() && turn_.front().time_ns - last_ns <= kPause_ns) {
     const RecordedDatagram& datagram = turn_.front();
     last_ns = datagram.time_ns;
-    datagrams.items.push_back({.offset = datagrams.bytes.size(),
-                               .size = static_cast<std::uint32_t>(datagram.bytes.size()),
-                               .port = DatagramPort::kData,
-                               .due_ns = datagram.time_ns,
-                               .topic = datagram.port});
-    datagrams.bytes.insert(datagrams.bytes.end(), datagram.bytes.begin(), datagram.bytes.end());
+    datagrams.Append(
+        datagram.bytes,
+        {.port = DatagramPort::kData, .due_ns = datagram.time_ns, .topic = datagram.port});
     turn_.pop_front();
   }
 }

@@ -135,11 +135,7 @@ class OusterEncoder final : public FrameEncoder {
   void AppendPacket(const PoseMotion& motion, Datagrams& datagrams) {
     AppendImu(motion, last_ns_, datagrams);
     if (layout_.may_have_checksum()) StoreChecksum(packet_);
-    datagrams.items.push_back({.offset = datagrams.bytes.size(),
-                               .size = static_cast<std::uint16_t>(packet_.size()),
-                               .port = DatagramPort::kData,
-                               .due_ns = last_ns_});
-    datagrams.bytes.insert(datagrams.bytes.end(), packet_.begin(), packet_.end());
+    datagrams.Append(packet_, {.port = DatagramPort::kData, .due_ns = last_ns_});
   }
 
   /// Appends the packets of motion up to a time.
@@ -149,11 +145,7 @@ class OusterEncoder final : public FrameEncoder {
       imu.system_time_ns = imu.acceleration_time_ns = imu.rotation_time_ns = ClockAt(next_imu_ns_);
       std::array<char, kOusterImuPacketSize> packet{};
       StoreImu(imu, packet);
-      datagrams.items.push_back({.offset = datagrams.bytes.size(),
-                                 .size = static_cast<std::uint16_t>(packet.size()),
-                                 .port = DatagramPort::kPosition,
-                                 .due_ns = next_imu_ns_});
-      datagrams.bytes.insert(datagrams.bytes.end(), packet.begin(), packet.end());
+      datagrams.Append(packet, {.port = DatagramPort::kPosition, .due_ns = next_imu_ns_});
     }
   }
 

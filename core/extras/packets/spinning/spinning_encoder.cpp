@@ -335,11 +335,7 @@ class SpinningEncoder final : public FrameEncoder {
         packet_.Close({.time_ns = kSimulationEpoch_s * kNsPerS + clock_ahead_ns() + stated_ns_,
                        .speed_rpm = speed_rpm_,
                        .sequence = static_cast<std::uint32_t>(sequence)});
-    datagrams.items.push_back({.offset = datagrams.bytes.size(),
-                               .size = static_cast<std::uint16_t>(packet.size()),
-                               .port = DatagramPort::kData,
-                               .due_ns = last_ns_});
-    datagrams.bytes.insert(datagrams.bytes.end(), packet.begin(), packet.end());
+    datagrams.Append(packet, {.port = DatagramPort::kData, .due_ns = last_ns_});
   }
 
   const SpinningModel& model_;
