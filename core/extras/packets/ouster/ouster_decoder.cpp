@@ -151,7 +151,7 @@ void OusterDecoder::AddColumn(std::span<const char> payload, std::size_t place) 
     TurnPoint point{};
     point.ring = beam.ring;
     point.laser = static_cast<std::uint8_t>(beam.pixel);
-    for (std::size_t i = 0; i < (layout_.is_dual() ? 2U : 1U); ++i) {
+    for (std::size_t i = 0; i < layout_.num_returns(); ++i) {
       point.return_index = static_cast<std::uint8_t>(i);
       const std::size_t num_points = points_.size();
       AddPoint(pixel.returns[i], beam, kTurn_rad * turned, point);

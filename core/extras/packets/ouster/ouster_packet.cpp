@@ -48,102 +48,47 @@ void StoreField(char* header, const HeaderField& field, std::uint64_t value) {
   std::memcpy(header + field.place, &value, field.bits / 8);
 }
 
-constexpr std::uint32_t kTwentyBits = (1U << 20U) - 1;
-constexpr std::uint32_t kNineteenBits = (1U << 19U) - 1;
-constexpr std::uint32_t kFifteenBits = (1U << 15U) - 1;
-constexpr std::uint8_t kFiveBits = 0x1F;
-
-OusterPixel LegacyPixel(const char* place) {
-  const auto word = LoadAt<std::uint32_t>(place);
-  return {.returns = {{{.range_mm = word & kTwentyBits,
-                        .flags = static_cast<std::uint8_t>(word >> 28U),
-                        .reflectivity = LoadAt<std::uint8_t>(place + 4),
-                        .signal = LoadAt<std::uint16_t>(place + 6)}}},
-          .near_ir = LoadAt<std::uint16_t>(place + 8)};
-}
-
-void StoreLegacy(const OusterPixel& pixel, char* place) {
-  const OusterReturn& only = pixel.returns[0];
-  StoreAt<std::uint32_t>(place, (only.range_mm & kTwentyBits) |
-                                    static_cast<std::uint32_t>(only.flags & kFourBits) << 28U);
-  StoreAt<std::uint8_t>(place + 4, only.reflectivity);
-  StoreAt<std::uint16_t>(place + 6, only.signal);
-  StoreAt<std::uint16_t>(place + 8, pixel.near_ir);
-}
-
-OusterReturn RangeAndFlags(const char* place) {
-  const auto word = LoadAt<std::uint32_t>(place);
-  return {.range_mm = word & kNineteenBits,
-          .flags = static_cast<std::uint8_t>(word >> 19U & kFiveBits)};
-}
-
-// Leaves the highest byte of the four as it is.
-void StoreRangeAndFlags(const OusterReturn& coded, char* place) {
-  const std::uint32_t word =
-      (coded.range_mm & kNineteenBits) | static_cast<std::uint32_t>(coded.flags & kFiveBits) << 19U;
-  std::memcpy(place, &word, 3);
-}
-
-OusterPixel SinglePixel(const char* place) {
-  OusterPixel pixel{.returns = {RangeAndFlags(place)}, .near_ir = LoadAt<std::uint16_t>(place + 8)};
-  pixel.returns[0].reflectivity = LoadAt<std::uint8_t>(place + 4);
-  pixel.returns[0].signal = LoadAt<std::uint16_t>(place + 6);
-  return pixel;
-}
-
-void StoreSingle(const OusterPixel& pixel, char* place) {
-  StoreRangeAndFlags(pixel.returns[0], place);
-  StoreAt<std::uint8_t>(place + 4, pixel.returns[0].reflectivity);
-  StoreAt<std::uint16_t>(place + 6, pixel.returns[0].signal);
-  StoreAt<std::uint16_t>(place + 8, pixel.near_ir);
-}
-
-OusterPixel DualPixel(const char* place) {
-  OusterPixel pixel{.near_ir = LoadAt<std::uint16_t>(place + 12)};
-  for (std::size_t i = 0; i < 2; ++i) {
-    pixel.returns[i] = RangeAndFlags(place + 4 * i);
-    pixel.returns[i].reflectivity = LoadAt<std::uint8_t>(place + 4 * i + 3);
-    pixel.returns[i].signal = LoadAt<std::uint16_t>(place + 8 + 2 * i);
-  }
-  return pixel;
-}
-
-void StoreDual(const OusterPixel& pixel, char* place) {
-  for (std::size_t i = 0; i < 2; ++i) {
-    StoreRangeAndFlags(pixel.returns[i], place + 4 * i);
-    StoreAt<std::uint8_t>(place + 4 * i + 3, pixel.returns[i].reflectivity);
-    StoreAt<std::uint16_t>(place + 8 + 2 * i, pixel.returns[i].signal);
-  }
-  StoreAt<std::uint16_t>(place + 12, pixel.near_ir);
-}
-
-constexpr std::uint32_t kLowRateUnit_mm = 8;
+/// How the first word of a return holds range and flags: bits from the lowest on.
+struct ReturnWord {
+  std::size_t num_bytes{};
+  unsigned range_bits{};
+  unsigned flags_begin{};
+  unsigned flags_bits{};
+  std::uint32_t unit_mm = 1;
+};
+constexpr ReturnWord kLegacyWord = {4, 20, 28, 4};
+constexpr ReturnWord kFullRateWord = {3, 19, 19, 5};
+constexpr ReturnWord kLowRateWord = {2, 15, 15, 1, 8};
+// Of the byte that states the photons of the background.
 constexpr std::uint16_t kLowRateNearIr = 16;
 
-OusterReturn LowRateReturn(const char* place) {
-  const auto word = LoadAt<std::uint16_t>(place);
-  return {.range_mm = kLowRateUnit_mm * (word & kFifteenBits),
-          .flags = static_cast<std::uint8_t>(word >> 15U),
-          .reflectivity = LoadAt<std::uint8_t>(place + 2)};
+/// The bytes of a pixel at which its fields begin.
+struct ReturnPlaces {
+  std::size_t word{};
+  std::size_t reflectivity{};
+  std::size_t signal{};  ///< Absent at low rate.
+};
+struct PixelFormat {
+  ReturnWord word;
+  std::array<ReturnPlaces, 2> returns;
+  std::size_t near_ir{};
+};
+// In the order of OusterProfile.
+constexpr std::array<PixelFormat, 6> kPixelFormats = {{
+    {kLegacyWord, {{{0, 4, 6}}}, 8},
+    {kFullRateWord, {{{0, 4, 6}}}, 8},
+    {kFullRateWord, {{{0, 3, 8}, {4, 7, 10}}}, 12},
+    {kLowRateWord, {{{0, 2}}}, 3},
+    {kLowRateWord, {{{0, 2}, {4, 6}}}, 3},
+    {kLowRateWord, {{{0, 2}, {4, 6}}}, 3},
+}};
+
+const PixelFormat& FormatOf(OusterProfile profile) {
+  return kPixelFormats.at(static_cast<std::size_t>(profile));
 }
 
-void StoreLowRateReturn(const OusterReturn& coded, char* place) {
-  StoreAt<std::uint16_t>(place, (coded.range_mm / kLowRateUnit_mm & kFifteenBits) |
-                                    static_cast<std::uint32_t>(coded.flags & 1U) << 15U);
-  StoreAt<std::uint8_t>(place + 2, coded.reflectivity);
-}
-
-OusterPixel LowRatePixel(const char* place, bool is_dual) {
-  OusterPixel pixel{.returns = {LowRateReturn(place)}};
-  pixel.near_ir = static_cast<std::uint16_t>(kLowRateNearIr * LoadAt<std::uint8_t>(place + 3));
-  if (is_dual) pixel.returns[1] = LowRateReturn(place + 4);
-  return pixel;
-}
-
-void StoreLowRate(const OusterPixel& pixel, bool is_dual, char* place) {
-  StoreLowRateReturn(pixel.returns[0], place);
-  StoreAt<std::uint8_t>(place + 3, pixel.near_ir / kLowRateNearIr);
-  if (is_dual) StoreLowRateReturn(pixel.returns[1], place + 4);
+constexpr std::uint32_t LowestBits(unsigned num) {
+  return (1U << num) - 1;
 }
 
 }  // namespace
@@ -163,8 +108,8 @@ OusterLayout::OusterLayout(const OusterMetadata& metadata)
 }
 
 std::uint32_t OusterLayout::most_range_mm() const {
-  if (is_legacy()) return kTwentyBits;
-  return has_low_rate() ? kLowRateUnit_mm * kFifteenBits : kNineteenBits;
+  const ReturnWord& word = FormatOf(profile_).word;
+  return word.unit_mm * LowestBits(word.range_bits);
 }
 
 OusterHeader OusterLayout::HeaderOf(std::span<const char> packet) const {
@@ -231,39 +176,42 @@ void OusterLayout::Store(const OusterColumn& column,
 }
 
 OusterPixel OusterLayout::PixelAt(std::span<const char> packet, std::size_t place) const {
+  const auto& [word, returns, near_ir] = FormatOf(profile_);
   const char* const begin = packet.data() + place;
-  switch (profile_) {
-    case OusterProfile::kLegacy:
-      return LegacyPixel(begin);
-    case OusterProfile::kSingle:
-      return SinglePixel(begin);
-    case OusterProfile::kDual:
-      return DualPixel(begin);
-    case OusterProfile::kLowRate:
-    case OusterProfile::kLowRateDual:
-    case OusterProfile::kFusaDual:
-      break;
+  OusterPixel pixel;
+  for (std::size_t i = 0; i < num_returns(); ++i) {
+    const auto bits = LoadAt<std::uint32_t>(begin + returns[i].word);
+    OusterReturn& coded = pixel.returns[i];
+    coded.range_mm = word.unit_mm * (bits & LowestBits(word.range_bits));
+    coded.flags = static_cast<std::uint8_t>(bits >> word.flags_begin & LowestBits(word.flags_bits));
+    coded.reflectivity = LoadAt<std::uint8_t>(begin + returns[i].reflectivity);
+    if (has_signal()) coded.signal = LoadAt<std::uint16_t>(begin + returns[i].signal);
   }
-  return LowRatePixel(begin, is_dual());
+  pixel.near_ir =
+      has_low_rate()
+          ? static_cast<std::uint16_t>(kLowRateNearIr * LoadAt<std::uint8_t>(begin + near_ir))
+          : LoadAt<std::uint16_t>(begin + near_ir);
+  return pixel;
 }
 
 void OusterLayout::StorePixel(const OusterPixel& pixel,
                               std::size_t place,
                               std::span<char> packet) const {
+  const auto& [word, returns, near_ir] = FormatOf(profile_);
   char* const begin = packet.data() + place;
-  switch (profile_) {
-    case OusterProfile::kLegacy:
-      return StoreLegacy(pixel, begin);
-    case OusterProfile::kSingle:
-      return StoreSingle(pixel, begin);
-    case OusterProfile::kDual:
-      return StoreDual(pixel, begin);
-    case OusterProfile::kLowRate:
-    case OusterProfile::kLowRateDual:
-    case OusterProfile::kFusaDual:
-      break;
+  for (std::size_t i = 0; i < num_returns(); ++i) {
+    const OusterReturn& coded = pixel.returns[i];
+    const std::uint32_t bits = (coded.range_mm / word.unit_mm & LowestBits(word.range_bits)) |
+                               (coded.flags & LowestBits(word.flags_bits)) << word.flags_begin;
+    std::memcpy(begin + returns[i].word, &bits, word.num_bytes);
+    StoreAt<std::uint8_t>(begin + returns[i].reflectivity, coded.reflectivity);
+    if (has_signal()) StoreAt<std::uint16_t>(begin + returns[i].signal, coded.signal);
   }
-  StoreLowRate(pixel, is_dual(), begin);
+  if (has_low_rate()) {
+    StoreAt<std::uint8_t>(begin + near_ir, pixel.near_ir / kLowRateNearIr);
+  } else {
+    StoreAt<std::uint16_t>(begin + near_ir, pixel.near_ir);
+  }
 }
 
 std::uint64_t OusterChecksum(std::span<const char> bytes) {

@@ -67,6 +67,7 @@ class OusterLayout {
   [[nodiscard]] std::size_t num_pixels() const { return num_pixels_; }
   [[nodiscard]] bool is_legacy() const { return profile_ == OusterProfile::kLegacy; }
   [[nodiscard]] bool is_dual() const { return IsDualProfile(profile_); }
+  [[nodiscard]] std::size_t num_returns() const { return is_dual() ? 2 : 1; }
   /// Whether pixels state the photons of their returns.
   [[nodiscard]] bool has_signal() const { return !has_low_rate(); }
   /// Whether packets may have a checksum: those of LEGACY and of functional safety have none.
