@@ -52,19 +52,26 @@ auto VisitNumberType(NumberType type, Visitor&& visit) {
   return visit(double{});
 }
 
-/// The type that PLY files call by either of two names.
+/// The two names of each of the first eight types in PLY files, of which the first are written.
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kPlyTypeNames = {
+    {{"char", "int8"},
+     {"uchar", "uint8"},
+     {"short", "int16"},
+     {"ushort", "uint16"},
+     {"int", "int32"},
+     {"uint", "uint32"},
+     {"float", "float32"},
+     {"double", "float64"}}};
+
+[[nodiscard]] constexpr std::string_view PlyTypeName(NumberType type) {
+  return kPlyTypeNames.at(static_cast<std::size_t>(type) - 1).first;
+}
+
+/// The type that PLY files call by either of its names.
 [[nodiscard]] inline std::optional<NumberType> PlyTypeNamed(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kNames = {
-      {{"char", "int8"},
-       {"uchar", "uint8"},
-       {"short", "int16"},
-       {"ushort", "uint16"},
-       {"int", "int32"},
-       {"uint", "uint32"},
-       {"float", "float32"},
-       {"double", "float64"}}};
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (name == kNames[i].first || name == kNames[i].second) return NumberType(i + 1);
+  for (std::size_t i = 0; i < kPlyTypeNames.size(); ++i) {
+    const auto& [written, other] = kPlyTypeNames[i];
+    if (name == written || name == other) return NumberType(i + 1);
   }
   return std::nullopt;
 }

@@ -6,21 +6,12 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/io/cloud/cloud.h"
 #include "core/io/cloud/track_fields.h"
 #include "core/io/field_layout.h"
 
 namespace railcast {
 namespace {
-
-template <typename Stored>
-constexpr std::string_view PlyTypeName() {
-  if (std::is_same_v<Stored, double>) return "double";
-  if (std::is_same_v<Stored, float>) return "float";
-  if (std::is_same_v<Stored, std::int32_t>) return "int";
-  if (std::is_same_v<Stored, std::uint32_t>) return "uint";
-  if (std::is_same_v<Stored, std::uint16_t>) return "ushort";
-  return "uchar";
-}
 
 bool IsCoordinate(std::string_view name) {
   return name == "x" || name == "y" || name == "z";
@@ -83,7 +74,8 @@ void EncodePly(const Frame& frame,
       "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(slots.size()) + "\n";
   std::size_t step = 0;
   ForEachProperty(selected, flavour, [&](const std::string& name, const auto&, auto zero) {
-    header += "property " + std::string(PlyTypeName<decltype(zero)>()) + " " + name + "\n";
+    header.append("property ").append(PlyTypeName(NumberTypeOf<decltype(zero)>()));
+    header += " " + name + "\n";
     step += sizeof zero;
   });
   header += "end_header\n";

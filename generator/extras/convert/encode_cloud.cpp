@@ -1,7 +1,6 @@
 #include "generator/extras/convert/encode_cloud.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -43,12 +42,6 @@ std::string PcdText(const Cloud& cloud) {
   return text;
 }
 
-std::string_view PlyName(NumberType type) {
-  constexpr std::array<std::string_view, 8> kNames = {"char", "uchar", "short", "ushort",
-                                                      "int",  "uint",  "float", "double"};
-  return kNames.at(static_cast<std::size_t>(type) - 1);
-}
-
 /// The type in which CloudCompare and Open3D read numbers of this one without loss.
 NumberType CommonType(NumberType type) {
   const bool is_small = type < NumberType::kUint32;
@@ -61,7 +54,7 @@ std::string EncodePlyCloud(const Cloud& cloud, bool is_common) {
   for (const CloudField& field : cloud.fields) {
     const std::string name(field.plain_name());
     const bool is_position = name.size() == 1 && std::string_view("xyzXYZ").find(name) < 6;
-    bytes.append("property ").append(PlyName(is_common ? CommonType(field.type) : field.type));
+    bytes.append("property ").append(PlyTypeName(is_common ? CommonType(field.type) : field.type));
     bytes.append(is_common && !is_position ? " scalar_" : " ").append(name).append("\n");
   }
   bytes += "end_header\n";
