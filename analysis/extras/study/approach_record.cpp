@@ -109,8 +109,8 @@ void ApproachCertificate::Add(const FrameCertificate& frame) {
 }
 
 void Describe(Archive& a, ApproachCertificate& s) {
-  a.Required("frames", s.frames, "In which a beam may meet an object.");
-  a.Required("objects", s.objects, "Instances of those whose echoes count, by name.");
+  a.Required("frames", s.frames, "Frames in which a beam may meet an object.");
+  a.Required("objects", s.objects, "Instances of the objects whose echoes count, by name.");
   Describe(a, s.sum);
 }
 
@@ -120,9 +120,9 @@ void Describe(Archive& a, StudiedObject& s) {
   a.Required("detected", s.is_detected, "");
   std::optional<double> distance_m;
   if (!std::isnan(s.distance_m)) distance_m = s.distance_m;
-  a.Nullable("distance_m", distance_m, "Of the detection.");
+  a.Nullable("distance_m", distance_m, "At which it was detected.");
   s.distance_m = distance_m.value_or(std::numeric_limits<double>::quiet_NaN());
-  a.Required("frame", s.frame, "That completes the rule, or of the closest point.");
+  a.Required("frame", s.frame, "The one that completes the rule, or that of the closest point.");
   a.Required("from_start", s.is_from_start, "Whether the first frames complete the rule.");
   a.Required("nearest_m", s.nearest_m, "Distances of the approach.");
   a.Required("farthest_m", s.farthest_m, "");
@@ -132,10 +132,10 @@ void Describe(Archive& a, StudiedObject& s) {
 }
 
 void Describe(Archive& a, FalseAlarm& s) {
-  a.Required("frame", s.frame, "That completes the rule.");
+  a.Required("frame", s.frame, "The one that completes the rule.");
   a.Required("s_m", s.s_m, "Chainage of the nearest box.");
   a.Required("distance_m", s.distance_m, "Of that box.");
-  a.Required("object", s.object, "That is not in the way; empty where there is none.");
+  a.Required("object", s.object, "The object that is not in the way; empty where there is none.");
   a.Required("cause", s.cause, "Label of most of the box's points, or the detector's word.");
 }
 

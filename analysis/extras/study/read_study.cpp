@@ -32,7 +32,7 @@ void Describe(Archive& a, ClusterDetectorSpec& s) {
              Within(0, 100));
   a.Optional("cluster_distance_m", s.cluster_distance_m, "Of points of one cluster, in plan.",
              Within(0.01, 10));
-  a.Optional("min_points", s.min_points, "Of a cluster.", Within(1, 1e6));
+  a.Optional("min_points", s.min_points, "Least number of points of a cluster.", Within(1, 1e6));
 }
 
 void Describe(Archive& a, TrainGauge& s) {
@@ -56,7 +56,7 @@ void Describe(Archive& a, StudySpec& s) {
   a.Optional("question", s.question, "What the study is to answer.");
   a.Required("recipe", s.recipe, "What scenarios are drawn from.", ExistingFile());
   std::optional<std::vector<std::string>> objects;
-  a.Optional("objects", objects, "Names of those asked about; absent = all in the way.",
+  a.Optional("objects", objects, "Names of the objects to study; absent = all in the way.",
              NonEmptyString());
   a.Ensure({"objects"}, !objects || !objects->empty(), "must not be empty");
   if (objects) s.objects = std::move(*objects);
