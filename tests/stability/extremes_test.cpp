@@ -155,13 +155,13 @@ void ExpectSoundBeams(const Frame& frame, const SimulatorSpec& spec) {
       const bool is_seen = frame.outcome[slot] == Outcome::kReturned ||
                            frame.outcome[slot] == Outcome::kBelowThreshold;
       if (!is_seen || frame.material[slot] == 0) continue;
-      ASSERT_GE(frame.power_ratio[slot], 0.0F);
-      ASSERT_TRUE(std::isfinite(frame.power_ratio[slot]));
-      ASSERT_GE(frame.intensity[slot], 0.0F);
-      ASSERT_GE(frame.footprint_share[slot], 0.0F);
+      const bool is_sound = frame.power_ratio[slot] >= 0.0F &&
+                            std::isfinite(frame.power_ratio[slot]) &&
+                            frame.intensity[slot] >= 0.0F && frame.footprint_share[slot] >= 0.0F;
+      if (!is_sound) FAIL() << "slot " << slot << " has no sound power, intensity or share";
       share += static_cast<double>(frame.footprint_share[slot]);
     }
-    ASSERT_LE(share, 1.0 + 1e-5);
+    if (!(share <= 1.0 + 1e-5)) FAIL() << "the shares of slot " << first << " sum up to " << share;
   }
 }
 

@@ -199,7 +199,7 @@ TEST_F(LiveWindow, OutlivesSendersAndTheirNoise) {
   EXPECT_EQ(window().ExitStatus(), 0) << window().Said();
 }
 
-/// Takes half a minute, so it is a ctest test of its own.
+/// Takes a quarter of a minute, so it is a ctest test of its own.
 class Minute : public LiveWindow {};
 
 TEST_F(Minute, ShowsAStreamOfTheGeneratorAllTheTime) {
@@ -220,10 +220,10 @@ TEST_F(Minute, ShowsAStreamOfTheGeneratorAllTheTime) {
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
   };
-  live_until(10);
+  live_until(5);
   const Picture early = Saved();
   const long early_kib = window().Memory_KiB();
-  live_until(30);
+  live_until(15);
   const Picture late = Saved();
   const long late_kib = window().Memory_KiB();
   EXPECT_GT(early_kib, 10'000);
