@@ -156,10 +156,10 @@ TEST(RecordedIntensities, StayThoseOfTheFilesWhereTheRecordingDoesNotTell) {
     EXPECT_NE(is_as_it_was, text.find("as measured") != std::string::npos) << text;
     return text;
   };
-  EXPECT_THAT(said({}), HasSubstr("does not tell its own: it has no whole turn as a grid"));
-  EXPECT_THAT(said({turns[0]}), HasSubstr("does not tell its own: it has one whole turn only"));
+  EXPECT_THAT(said({}), HasSubstr("are not known: it has no whole turn as a grid"));
+  EXPECT_THAT(said({turns[0]}), HasSubstr("are not known: it has one whole turn only"));
   for (float& range_m : turns[1].frame.range_m) range_m += 0.02F;
-  EXPECT_THAT(said({turns[0], turns[1]}), HasSubstr("does not tell its own: its sensor moved"));
+  EXPECT_THAT(said({turns[0], turns[1]}), HasSubstr("are not known: its sensor moved"));
   EXPECT_THAT(said({turns[2], turns[2]}), HasSubstr("as measured"));
 }
 
