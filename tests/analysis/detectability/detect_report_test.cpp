@@ -282,7 +282,7 @@ TEST(DetectReport, SaysThatRunsAreTooFewForAProbability) {
   const Report report = ReportOf(RunsOfAKnownProbability(59));
   const Section& section = SectionOf(report, "probability");
   ASSERT_EQ(section.paragraphs.size(), 1U);
-  EXPECT_THAT(section.paragraphs[0], HasSubstr("takes 60, one of each run: person (59)."));
+  EXPECT_THAT(section.paragraphs[0], HasSubstr("requires 60, one per run: person (59)."));
   EXPECT_TRUE(section.tables.empty());
 }
 
