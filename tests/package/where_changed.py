@@ -4,7 +4,7 @@
 Usage: where_changed.py NAME COMMAND...
        where_changed.py --keep NAME...
 
-These tests take a quarter of the time of all, and what they find depends on few files: those that say what is built of
+These tests take a fifth of the time of all, and what they find depends on few files: those that say what is built of
 which libraries, installed and packed, public headers, and examples. tests/package/passed.json has a hash of these files
 for each test, as they were when it passed; --keep writes it. With the same hash the test is skipped (77), unless
 RAILCAST_TRY_PACKAGES is set, as scripts/dev/release.sh does.
