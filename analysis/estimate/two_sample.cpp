@@ -72,12 +72,12 @@ double AreaOf(const TwoSamples& samples,
     const bool is_second = samples.is_second[static_cast<std::size_t>(members[i])];
     (is_second ? second : first).push_back(scores[i]);
   }
-  return AreaUnderCurve(std::move(first), std::move(second));
+  return AreaUnderCurve(std::move(first), second);
 }
 
 }  // namespace
 
-double AreaUnderCurve(std::vector<double> first, std::vector<double> second) {
+double AreaUnderCurve(std::vector<double> first, const std::vector<double>& second) {
   if (first.empty() || second.empty()) return std::numeric_limits<double>::quiet_NaN();
   std::ranges::sort(first);
   double num_above = 0.0;
@@ -135,7 +135,7 @@ Estimate TwoSampleTest::OverFolds(const std::vector<double>& scores,
   }
   Moments areas;  // Ignores the folds that have none.
   for (std::size_t number = 0; number < kNumFolds; ++number) {
-    areas.Add(AreaUnderCurve(std::move(first[number]), std::move(second[number])));
+    areas.Add(AreaUnderCurve(std::move(first[number]), second[number]));
   }
   Estimate area = MeanOverFolds(areas);
   // An area is a probability; its interval need not reach beyond.

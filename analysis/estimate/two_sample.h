@@ -46,7 +46,7 @@ class RandomForest {
 /// The probability that a score of the second sample exceeds one of the first, equal ones counted
 /// half: the area under the receiver operating characteristic, U / (m n) of Mann and Whitney
 /// (1947). NaN if a sample is empty.
-[[nodiscard]] double AreaUnderCurve(std::vector<double> first, std::vector<double> second);
+[[nodiscard]] double AreaUnderCurve(std::vector<double> first, const std::vector<double>& second);
 
 /// Two samples whose members belong to groups, such as patches of two clouds by frame.
 struct TwoSamples {

@@ -180,7 +180,8 @@ double TruncationOf(const RecordedObject& object, const ScanTable& scan) {
   const FieldOfView view(scan);
   int num_outside = 0;
   for (int place = 0; place < kPlaces * kPlaces * kPlaces; ++place) {
-    const Vector3 at(place % kPlaces, place / kPlaces % kPlaces, place / (kPlaces * kPlaces));
+    const int layer = place / (kPlaces * kPlaces);
+    const Vector3 at(place % kPlaces, place / kPlaces % kPlaces, layer);
     const Vector3 in_box_m =
         ((at.array() + 0.5) / kPlaces - 0.5).matrix().cwiseProduct(object.size_m);
     num_outside += view.Has(object.sensor_from_box * in_box_m) ? 0 : 1;
