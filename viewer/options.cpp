@@ -148,9 +148,7 @@ void AddLookOptions(ProgramOptions& app, ViewOptions& options, RawOptions& raw) 
   app.AddOption("--color-by", options.choices.color_by,
                 "Field to colour the points by: a field of railcast or any other that the cloud "
                 "has. Default: label where there is one, else height");
-  app.AddOption("--color-map", raw.color_map,
-                "Colour map for continuous values; default: "
-                "viridis")
+  app.AddOption("--color-map", raw.color_map, "Colour map for continuous values; default: viridis")
       .Check(Named(Strings(kColorMapNames)));
   app.AddOption("--color-range", raw.color_range,
                 "The two ends of the colour scale; default: the 1st and 99th percentile of the "

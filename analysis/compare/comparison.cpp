@@ -52,8 +52,7 @@ LaidCloud LayOnOther(const ComparedCloud& a, const std::string& name_b, Compared
                      " points in cells of 0.4 m to be registered" + Got(num_points));
   }
   const auto laid = LayOn(onto, cloud, Transform::Identity());
-  if (!laid)
-    throw InputError(name_b + ": must match its partner when registered (got no convergence)");
+  if (!laid) throw InputError(name_b + ": must match its partner (got no convergence)");
   const Eigen::Isometry3f a_from_b = laid->onto_from_cloud.cast<float>();
   for (std::size_t i = 0; i < b.size(); ++i) {
     b.points_m[i] = a_from_b * b.points_m[i];

@@ -128,8 +128,7 @@ void AddDetectorOptions(ProgramOptions& evaluate, EvaluateOptions& options) {
       "JSON lines or OpenLABEL (docs/evaluate.md)");
   evaluate
       .AddOption("--min-score", options.spec.min_score,
-                 "Leave out detections of a file with a "
-                 "lower score")
+                 "Leave out detections of a file with a lower score")
       .Check(Number({0.0, 1.0}))
       .Needs(detections)
       .ShowDefault();
@@ -182,8 +181,7 @@ void AddEvaluate(ProgramOptions& app, ProgramCommand& command) {
           .Check(Number({0.1, 10.0}));
   const Option height = evaluate
                             .AddOption("--gauge-height-m", options->gauge_height_m,
-                                       "Height of the train's own "
-                                       "gauge above top of rail")
+                                       "Height of the train's own gauge above top of rail")
                             .Check(Number({0.1, 10.0}))
                             .Needs(width);
   width.Needs(height);

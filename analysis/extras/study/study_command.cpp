@@ -158,9 +158,7 @@ void AddStudy(ProgramOptions& app, ProgramCommand& command) {
       "Simulate the approaches that a recipe draws, and report with which probability objects in "
       "the way are detected at which distance");
   study
-      .AddOption("STUDY", options->study,
-                 "Study file: the recipe and the question "
-                 "(docs/study.md)")
+      .AddOption("STUDY", options->study, "Study file: the recipe and the question (docs/study.md)")
       .Required();
   AddReportOptions(study, options->output);
   AddTable(study, options->table);
