@@ -382,7 +382,9 @@ struct ScreenedScan::Parts {
     const std::vector<std::uint32_t> widest = near.Beams(widest_rad);
     // The frame itself traces no others with them, which would move its rays by parts of 1e-7.
     std::vector<bool> is_near(pattern.num_firings());
-    for (const std::uint32_t i : near.Beams(beside_rad, widest)) is_near[i] = true;
+    const std::vector<std::uint32_t> narrow =
+        widest_rad > beside_rad ? near.Beams(beside_rad, widest) : widest;
+    for (const std::uint32_t firing : narrow) is_near[firing] = true;
     Wanted all{recorded, scene, duration_ns, returns, TracingOrder(pattern), {}};
     all.near = Those(all.order, [&](std::uint32_t firing) { return is_near[firing]; });
     ScreenedFrame frame = MakeFirings(
