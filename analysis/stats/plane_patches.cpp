@@ -6,6 +6,8 @@
 #include <pcl/sample_consensus/ransac.h>
 #include <pcl/sample_consensus/sac_model_plane.h>
 #include <pcl/features/impl/normal_3d.hpp>
+#include <pcl/sample_consensus/impl/ransac.hpp>
+#include <pcl/sample_consensus/impl/sac_model_plane.hpp>
 
 #include <algorithm>
 #include <numbers>

@@ -4,6 +4,10 @@
 #include <pcl/point_types.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+// Debian compiles PCL's kd-tree with OpenMP: each search then forms a team of one thread and makes
+// a system call, which takes longer than the search. Here, without OpenMP, FLANN's searches are
+// instantiated for the whole program.
+#include <pcl/kdtree/impl/kdtree_flann.hpp>
 
 #include <cmath>
 #include <utility>

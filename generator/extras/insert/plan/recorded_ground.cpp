@@ -2,6 +2,9 @@
 
 #include <pcl/sample_consensus/mlesac.h>
 #include <pcl/sample_consensus/sac_model_perpendicular_plane.h>
+#include <pcl/sample_consensus/impl/mlesac.hpp>
+#include <pcl/sample_consensus/impl/sac_model_perpendicular_plane.hpp>
+#include <pcl/sample_consensus/impl/sac_model_plane.hpp>
 
 #include <algorithm>
 #include <array>
