@@ -77,7 +77,7 @@ int RunPairs(const CompareOptions& options, const std::string& command_line) {
   }
   Report report = MakeCompareReport(comparison, pairs, a->info(), b->info(), command_line);
   const Separability told = SeparabilityOf(patches);
-  report.headlines.push_back({"Told apart, AUC", "", told.area});
+  report.headlines.push_back({"AUC of the classifier", "", told.area});
   report.sections.push_back(MakeSeparabilitySection(patches, told));
   AddProvenance({a->info(), b->info()}, ProgramVersion(), report);
   EmitReport(report, options.output, "compare");

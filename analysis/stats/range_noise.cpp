@@ -115,7 +115,7 @@ Section Noise::MakeSection() const {
   if (!truth_.empty()) {
     const Table truth = TruthTable(truth_);
     chart.series.push_back(
-        SeriesOf(truth, {"range_m", "robust_sigma_mm"}, "measured less true range"));
+        SeriesOf(truth, {"range_m", "robust_sigma_mm"}, "measured minus true range"));
     section.tables.push_back(truth);
   }
   section.tables.push_back(planes);

@@ -262,7 +262,7 @@ class Velocity {
   struct Sum {
     std::uint64_t num_points{};
     Moments measured_mps;
-    /// Measured less true velocity, of points that have both.
+    /// Measured minus true velocity, of points that have both.
     Scatter errors_mps;
 
     static auto Sums(auto& of) { return std::tie(of.num_points, of.measured_mps, of.errors_mps); }

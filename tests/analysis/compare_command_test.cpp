@@ -91,7 +91,7 @@ TEST(RailcastAnalyzeCompare, CannotTellTwoSeedsOfASceneApart) {
   ASSERT_EQ(compared.status, 0) << compared.said;
   const PlainJson area =
       PlainJson::parse(ReadFileWhole(a + "_out/compare.json"))["headlines"].back();
-  ASSERT_EQ(area["title"], "Told apart, AUC");
+  ASSERT_EQ(area["title"], "AUC of the classifier");
   EXPECT_LT(area["value"]["low"], 0.5);
   EXPECT_GT(area["value"]["high"], 0.5);
 }
