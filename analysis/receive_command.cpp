@@ -109,7 +109,7 @@ int RunReceive(const ReceiveOptions& options) {
   grabber.registerCallback(std::function(
       [&](const std::shared_ptr<const ReceivedFrame>& frame) { counter.Take(*frame); }));
   grabber.start();
-  std::cout << "listening at " << EndpointText(grabber.at()) << std::endl;
+  std::cout << "listening at " << EndpointText(grabber.at()) << '\n' << std::flush;
 
   const double begin_s = Now_s();
   const double end_s =

@@ -54,8 +54,8 @@ std::string InWords(const IntensityFactor& factor) {
   return Joined({"The intensities of B are those of A times ", digits(factor.b_over_a, 3),
                  ": scaled by that, their deciles differ by ",
                  digits(kPercentOfOne * (factor.largest_left - 1.0), 2),
-                 " % at most, and the other differences of intensity here are mostly those of the "
-                 "scale."});
+                 " % at most, and the other differences of intensity here ",
+                 "are mostly those of the scale."});
 }
 
 }  // namespace railcast

@@ -30,7 +30,7 @@ struct Writing {
 };
 
 struct Reading {
-  std::string_view bytes;
+  std::span<const char> bytes;
   bool is_whole = true;
 
   template <typename T>
@@ -39,7 +39,7 @@ struct Reading {
     is_whole = is_whole && bytes.size() >= num * sizeof(T);
     if (!is_whole) return;
     std::memcpy(values, bytes.data(), num * sizeof(T));
-    bytes.remove_prefix(num * sizeof(T));
+    bytes = bytes.subspan(num * sizeof(T));
   }
 };
 

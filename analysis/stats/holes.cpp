@@ -22,8 +22,8 @@ using Neighbours = Eigen::Array<double, static_cast<int>(kNumNeighbours), 1>;
 
 // The places of the neighbours in columns from the firing.
 const Neighbours& Places() {
-  static const Neighbours kPlaces{{-4.0, -3.0, -2.0, -1.0, 1.0, 2.0, 3.0, 4.0}};
-  return kPlaces;
+  static const Neighbours places{{-4.0, -3.0, -2.0, -1.0, 1.0, 2.0, 3.0, 4.0}};
+  return places;
 }
 
 // Standard deviation of the ranges about their line, which has two parameters.
@@ -62,9 +62,9 @@ void AddRow(const Cell& name, const HoleCount& count, Table& table) {
 }  // namespace
 
 const Bins& SmoothHoles::Intensities() {
-  static const Bins kBins({0.0, 0.005, 0.015, 0.025, 0.035, 0.045, 0.055, 0.075, 0.105, 0.155,
-                           0.205, 0.305, 0.505, 1.005});
-  return kBins;
+  static const Bins bins({0.0, 0.005, 0.015, 0.025, 0.035, 0.045, 0.055, 0.075, 0.105, 0.155, 0.205,
+                          0.305, 0.505, 1.005});
+  return bins;
 }
 
 void SmoothHoles::AddFiring(const Frame& frame, std::size_t row, std::size_t column) {

@@ -83,7 +83,8 @@ Statistics MeasureStatistics(Recording& recording,
   const std::optional<ScanTable> fixed = FixedScanTable(recording.info());
   Statistics all;
   // Enough pairs in flight to keep all cores busy; more would only take memory.
-  const auto max_pairs = static_cast<std::size_t>(2 * tbb::info::default_concurrency());
+  const auto max_pairs =
+      std::size_t{2} * static_cast<std::size_t>(tbb::info::default_concurrency());
   const auto read = tbb::make_filter<void, PairOfReaders>(
       tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) -> PairOfReaders {
         auto first = recording.Next();

@@ -106,6 +106,32 @@ void AddDensityHeadline(const Curves& curves, Name name, Report& report) {
       {"Exponent of density against range, " + best_name, "", Density::LawOf(*best).exponent});
 }
 
+void AddSections(const Statistics& statistics,
+                 const Names& names,
+                 const LabelTable& labels,
+                 const std::optional<RunCertificate>& certificate,
+                 Report& report) {
+  const auto add = [&](const auto& figures, const auto&... given) {
+    if (!figures.is_empty()) report.sections.push_back(figures.MakeSection(given...));
+  };
+  add(statistics.classes, names);
+  add(statistics.dropout, names);
+  add(statistics.holes);
+  add(statistics.density, names);
+  add(statistics.objects);
+  add(statistics.difficulty);
+  if (!statistics.difficulty.is_empty()) {
+    report.sections.push_back(MakeOsdarBalanceSection(statistics.difficulty, labels));
+  }
+  add(statistics.gauge, names);
+  report.sections.push_back(statistics.noise.MakeSection());
+  if (certificate) report.sections.push_back(MakeCertificateSection(*certificate));
+  report.sections.push_back(statistics.temporal_noise.MakeSection());
+  add(statistics.velocity);
+  add(statistics.intensity, names);
+  report.sections.push_back(statistics.coverage.MakeSection());
+}
+
 }  // namespace
 
 Report MakeStatisticsReport(const Statistics& statistics,
@@ -123,8 +149,9 @@ Report MakeStatisticsReport(const Statistics& statistics,
 
   report.headlines.push_back({"Points a frame", "", statistics.coverage.PointsPerFrame()});
   const bool is_exact = !statistics.dropout.is_empty();
-  if (is_exact)
+  if (is_exact) {
     report.headlines.push_back({"Dropout, exact", "%", Scaled(statistics.dropout.Share(), 100.0)});
+  }
   if (!statistics.holes.is_empty()) {
     report.headlines.push_back(
         {"Dropout, estimated from holes", "%", Scaled(statistics.holes.Share(), 100.0)});
@@ -143,33 +170,7 @@ Report MakeStatisticsReport(const Statistics& statistics,
       statistics.density.by_attitude(), [](const std::string& attitude) { return attitude; },
       report);
 
-  if (!statistics.classes.is_empty()) {
-    report.sections.push_back(statistics.classes.MakeSection(names));
-  }
-  if (is_exact) report.sections.push_back(statistics.dropout.MakeSection(names));
-  if (!statistics.holes.is_empty()) report.sections.push_back(statistics.holes.MakeSection());
-  if (!statistics.density.is_empty()) {
-    report.sections.push_back(statistics.density.MakeSection(names));
-  }
-  if (!statistics.objects.is_empty()) report.sections.push_back(statistics.objects.MakeSection());
-  if (!statistics.difficulty.is_empty()) {
-    report.sections.push_back(statistics.difficulty.MakeSection());
-    report.sections.push_back(
-        MakeOsdarBalanceSection(statistics.difficulty, sources.front().labels));
-  }
-  if (!statistics.gauge.is_empty()) {
-    report.sections.push_back(statistics.gauge.MakeSection(names));
-  }
-  report.sections.push_back(statistics.noise.MakeSection());
-  if (certificate) report.sections.push_back(MakeCertificateSection(*certificate));
-  report.sections.push_back(statistics.temporal_noise.MakeSection());
-  if (!statistics.velocity.is_empty()) {
-    report.sections.push_back(statistics.velocity.MakeSection());
-  }
-  if (!statistics.intensity.is_empty()) {
-    report.sections.push_back(statistics.intensity.MakeSection(names));
-  }
-  report.sections.push_back(statistics.coverage.MakeSection());
+  AddSections(statistics, names, sources.front().labels, certificate, report);
   return report;
 }
 

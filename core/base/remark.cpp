@@ -16,6 +16,7 @@ RemarkReceiver& Receiver() {
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-size): a table
 const std::vector<RemarkType>& RemarkTypes() {
   using enum RemarkKind;
   static const std::vector<RemarkType> types = {

@@ -61,7 +61,7 @@ std::string UnknownCommand(const CLI::App* app, const CLI::Error& error) {
 /// What CLI11 says of the options together and of numbers of values. What it says of single values
 /// are our own rules.
 std::string InOurForm(const std::string& said) {
-  static const std::array<std::pair<std::regex, const char*>, 9> kForms = {{
+  static const std::array<std::pair<std::regex, const char*>, 9> forms = {{
       {std::regex("^At least 1 option from \\[(.*),(.*)\\] is required$"),
        "$1 or $2: one is required (got none)"},
       {std::regex("^(.*) is required$"), "$1: is required (got none)"},
@@ -75,7 +75,7 @@ std::string InOurForm(const std::string& said) {
        "$1: must have $3 values (got $4)"},
       {std::regex("^(.*) was given a disallowed flag override$"), "$1: must have no value"},
   }};
-  for (const auto& [theirs, ours] : kForms) {
+  for (const auto& [theirs, ours] : forms) {
     if (std::regex_match(said, theirs)) return std::regex_replace(said, theirs, ours);
   }
   return said;

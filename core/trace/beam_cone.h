@@ -210,6 +210,7 @@ struct LeafProducts {
 };
 
 /// Fills the products and returns those of all lanes that the cone may meet nearer than `far`.
+// NOLINTNEXTLINE(readability-function-size): its values stay in registers
 [[nodiscard]] inline std::uint32_t TrianglesMet(const BeamLeaf& leaf,
                                                 const ConeLanes& c,
                                                 float far,

@@ -87,7 +87,7 @@ struct BetweenSteps {
 }
 
 inline void Turn(const Rows& rows, const float* from, float* to) {
-  for (int i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     to[i] = rows.m[4 * i] * from[0] + rows.m[4 * i + 1] * from[1] + rows.m[4 * i + 2] * from[2];
   }
 }

@@ -109,6 +109,7 @@ inline void AimProbes(const Cone& cone, const SubRayPlaces& places, Probes& prob
 /// Whether any sub-ray of a crowd may pass through the box of a node's child nearer than what it
 /// has hit.
 /// @param margin_m Room for rounding.
+// NOLINTNEXTLINE(readability-function-size): its values stay in registers
 [[nodiscard]] inline bool IsBoxMet(const BeamNode& node,
                                    std::size_t child,
                                    const float* origin,
@@ -166,6 +167,7 @@ template <std::size_t num>
 
 /// Intersects the sub-rays from `first` on with a triangle. Returns whether any hits it nearer than
 /// anything before.
+// NOLINTNEXTLINE(readability-function-size): its values stay in registers
 [[nodiscard]] inline bool HitLanes(const LeafProducts& t,
                                    std::size_t lane,
                                    std::size_t first,
@@ -198,6 +200,7 @@ template <std::size_t num>
 
 /// Intersects the sub-rays that pass through the triangle in a lane of a leaf, a bit each from
 /// `begin` on, with its plane. Returns whether any hits it nearer than anything before.
+// NOLINTNEXTLINE(readability-function-size): its values stay in registers
 [[nodiscard]] inline bool HitTriangle(const LeafProducts& products,
                                       std::size_t lane,
                                       std::uint64_t rays,

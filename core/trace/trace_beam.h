@@ -23,11 +23,16 @@ namespace railcast::RAILCAST_ISA {
 [[nodiscard]] inline bool IsLeaf(TreePointer pointer) {
   return (pointer & kIsLeafBit) != 0;
 }
+template <class T>
+[[nodiscard]] inline const T* AddressIn(TreePointer pointer) {
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): the other bits of the address say what is there
+  return reinterpret_cast<const T*>(pointer & kAddressBits);
+}
 [[nodiscard]] inline const BeamNode& NodeAt(TreePointer pointer) {
-  return *reinterpret_cast<const BeamNode*>(pointer & kAddressBits);
+  return *AddressIn<BeamNode>(pointer);
 }
 [[nodiscard]] inline const BeamLeaf& LeafAt(TreePointer pointer) {
-  return *reinterpret_cast<const BeamLeaf*>(pointer & kAddressBits);
+  return *AddressIn<BeamLeaf>(pointer);
 }
 /// The places of a node or leaf that are in use, a bit each.
 [[nodiscard]] inline std::uint32_t PlacesInUse(TreePointer pointer) {
@@ -89,7 +94,7 @@ inline void AddFacet(const Rows& window_from_model,
 
 /// Has the first lines of a node or leaf fetched, which is visited after its nearer siblings.
 inline void Prefetch(TreePointer pointer) {
-  const auto* const bytes = reinterpret_cast<const char*>(pointer & kAddressBits);
+  const char* const bytes = AddressIn<char>(pointer);
   constexpr std::size_t kNumBytes = 384;
   for (std::size_t at = 0; at < kNumBytes; at += 64) __builtin_prefetch(bytes + at);
 }
@@ -119,6 +124,7 @@ struct ModelBeam {
 }
 
 /// Pushes those children of a node that the cone and, in a crowd, at least one sub-ray meets.
+// NOLINTNEXTLINE(readability-function-size): its values stay in registers
 inline void PushChildren(TreePointer pointer,
                          float far,
                          SubRayPlaces& places,
@@ -149,6 +155,7 @@ constexpr std::uint32_t kCrowd = 96;
 
 /// Intersects the triangles of a leaf with the sub-rays. Returns whether any hit is nearer than
 /// what was hit before, or the number of sub-rays was lowered.
+// NOLINTNEXTLINE(readability-function-size): its values stay in registers
 [[nodiscard]] inline bool TraceLeaf(TreePointer pointer,
                                     const ConeLanes& cone,
                                     float far,

@@ -48,6 +48,7 @@ std::uint32_t NextRunNumber() {
       std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
 }
 
+// NOLINTNEXTLINE(readability-function-size): a table
 void AddStreamOptions(ProgramOptions& stream, StreamOptions& options) {
   stream.AddOption("SCENARIO", options.scenario, "Scenario file").Required().Check(NonEmpty());
   stream.AddOption(

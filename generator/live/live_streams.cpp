@@ -141,6 +141,7 @@ UdpSender::Counts SensorStream::delivered() const {
   return sender_ ? sender_->counts() : UdpSender::Counts{};
 }
 
+// NOLINTNEXTLINE(readability-function-size): makes one member after the other
 LiveStreams::LiveStreams(const ScenarioSpec& scenario,
                          const std::vector<SensorStreamSpec>& streams,
                          int num_threads,

@@ -122,6 +122,7 @@ py::list RemarkList(const RemarkLog& log) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-size): a table
 void AddRecordingClass(pybind11::module_& module) {
   py::class_<RecordingPass>(module, "_RecordingPass", "One pass over a recording.")
       .def("__iter__", [](py::object self) { return self; })

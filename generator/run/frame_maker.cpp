@@ -45,7 +45,7 @@ struct CommandEffect {
 
 }  // namespace
 
-FrameMaker::FrameMaker(ScenarioSpec scenario, int num_threads, const std::string& isa)
+FrameMaker::FrameMaker(const ScenarioSpec& scenario, int num_threads, const std::string& isa)
     : FrameMaker(scenario, MakeSimulators(scenario, num_threads, isa)) {}
 
 FrameMaker::FrameMaker(ScenarioSpec scenario, std::vector<std::unique_ptr<Simulator>> simulators)

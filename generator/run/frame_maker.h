@@ -47,7 +47,7 @@ class FrameMaker {
  public:
   /// @param num_threads,isa As MakeSimulators() takes them.
   /// @throws InputError as MakeSimulators() does.
-  FrameMaker(ScenarioSpec scenario, int num_threads, const std::string& isa = {});
+  FrameMaker(const ScenarioSpec& scenario, int num_threads, const std::string& isa = {});
   /// @param simulators Of the scenario, as MakeSimulators() makes them.
   FrameMaker(ScenarioSpec scenario, std::vector<std::unique_ptr<Simulator>> simulators);
 

@@ -206,7 +206,7 @@ void RunDirectory::OpenTrace() {
 std::string RunDirectory::WhatChanged() const {
   const fs::path& directory = spec_.directory;
   if (num_done_ < spec_.num_frames) return "frame " + std::to_string(spec_.FrameAt(num_done_));
-  const std::string file = lines_.FileWithOthers();
+  std::string file = lines_.FileWithOthers();
   if (!file.empty()) return file;
   if (!HasBytes(directory / kRunFile, RunJson(spec_))) return std::string(kRunFile);
   for (const auto& [name, bytes] : FixedFiles()) {

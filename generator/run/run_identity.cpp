@@ -77,10 +77,10 @@ std::string RunDifference(const std::string& key, const Json& found, const Json&
     return ScenarioDifference(MemberOf(found, "inputs"), MemberOf(ours, "inputs"));
   }
   // A run of all frames has no such key.
-  static const Json kAll = 1;
+  static const Json all = 1;
   const bool is_of_all = key == "stride" && !ours.contains(key);
   return "holds another run: " +
-         ValuesText(NameOf(key), MemberOf(found, key), is_of_all ? kAll : MemberOf(ours, key));
+         ValuesText(NameOf(key), MemberOf(found, key), is_of_all ? all : MemberOf(ours, key));
 }
 
 }  // namespace

@@ -46,8 +46,9 @@ double OverlapOf(const OrientedBox& one, const OrientedBox& other) {
   const Vector3 half_m = 0.5 * larger.size_m;
   int num = 0;
   for (int i = 0; i < kSteps * kSteps * kSteps; ++i) {
-    const Vector3 cell(i % kSteps, i / kSteps % kSteps, i / kSteps / kSteps);
-    const Vector3 middle_m = ((cell.array() + 0.5) / kSteps - 0.5) * smaller.size_m.array();
+    const Eigen::Vector3i cell(i % kSteps, i / kSteps % kSteps, i / kSteps / kSteps);
+    const Vector3 middle_m =
+        ((cell.array().cast<double>() + 0.5) / kSteps - 0.5) * smaller.size_m.array();
     const Vector3 local_m = larger_from_smaller * middle_m;
     num += (local_m.cwiseAbs().array() <= half_m.array()).all() ? 1 : 0;
   }

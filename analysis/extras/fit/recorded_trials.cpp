@@ -52,22 +52,19 @@ struct OnPiece {
   double residual_m;
 };
 
-float ChangeOn_m(const FlatPiece& piece,
-                 std::size_t slot,
-                 double residual_m,
-                 const RecordedFrame& recorded,
-                 const ScanTable& scan,
-                 const NextFrame& next) {
-  const Frame& frame = recorded.frame;
+double LaterResidual_m(const FlatPiece& piece,
+                       std::size_t slot,
+                       const Frame& frame,
+                       const ScanTable& scan,
+                       const NextFrame& next) {
   const std::size_t row = slot / frame.width();
   const std::size_t in_row = slot % frame.width();
   const auto found = next.columns.Nearest(scan.column_azimuth_rad[in_row / frame.returns]);
-  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   if (!found || !(std::abs(found->offset_rad) <= next.reach_rad)) return kNone;
   const std::size_t later =
       row * next.frame.width() + found->column * frame.returns + in_row % frame.returns;
-  const OnPiece at(next.frame, later, piece);
-  return static_cast<float>((at.residual_m - residual_m) / std::numbers::sqrt2);
+  return OnPiece(next.frame, later, piece).residual_m;
 }
 
 // Pieces overlap where the frame has few flat places. A point belongs to the first of its pieces,
@@ -168,7 +165,8 @@ RecordedTrials TakeTrials(const RecordedFrame& recorded, const RecordedFrame* ne
   for (const FlatPiece& piece : FindFlatPieces(recorded, scan ? &*scan : nullptr)) {
     const auto change_m = [&](std::size_t slot, double residual_m) {
       if (!next_frame) return std::numeric_limits<float>::quiet_NaN();
-      return ChangeOn_m(piece, slot, residual_m, recorded, *scan, *next_frame);
+      const double later_m = LaterResidual_m(piece, slot, recorded.frame, *scan, *next_frame);
+      return static_cast<float>((later_m - residual_m) / std::numbers::sqrt2);
     };
     TakeNoise(recorded.frame, piece, change_m, is_taken, trials);
   }

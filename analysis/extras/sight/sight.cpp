@@ -97,8 +97,9 @@ TargetView LookAtTarget(const Lookout& lookout,
   RayTile rays;
   rays.mask = kAllButWires;
   for (std::size_t i = 0; i < view.num_rays; ++i) {
+    const std::size_t row = i / num_rows;
     const double across = (static_cast<double>(i % num_rows) + 0.5) / num - 0.5;
-    const double up = (static_cast<double>(i / num_rows) + 0.5) / num;
+    const double up = (static_cast<double>(row) + 0.5) / num;
     const Vector3 point(0.0, across * kTargetWidth_m, up * height_m);
     AddRay(eye_m, window_from_target * point - eye_m, rays);
     if (rays.num_rays == kTileSize) CastRays(scene, rays, view);

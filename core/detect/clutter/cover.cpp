@@ -40,8 +40,8 @@ float DropPhase(std::uint64_t seed, std::uint32_t drop) {
 
 SpotLayer MakeLayer(const CoverSpec& cover,
                     double diameter_mm,
-                    std::vector<SpotLayer::Center> centers) {
-  return {std::move(centers), 0.5 * diameter_mm / cover.window_radius_mm,
+                    const std::vector<SpotLayer::Center>& centers) {
+  return {centers, 0.5 * diameter_mm / cover.window_radius_mm,
           0.5 * cover.aperture_mm / cover.window_radius_mm};
 }
 
@@ -53,7 +53,7 @@ SpotLayer LastingLayer(const DetectorSpec& spec,
   for (std::uint32_t spot = 0; spot < centers.size(); ++spot) {
     centers[spot] = CenterOf(spec.seed, {kind, spot, 0});
   }
-  return MakeLayer(spec.cover, diameter_mm, std::move(centers));
+  return MakeLayer(spec.cover, diameter_mm, centers);
 }
 
 constexpr float kPi = 3.14159265F;
@@ -168,7 +168,7 @@ SpotLayer Cover::DropsAt(double time_s) const {
     const auto generation = static_cast<std::uint32_t>(static_cast<std::uint64_t>(lives));
     centers[drop] = CenterOf(seed_, {SpotKind::kDrop, drop, generation});
   }
-  return MakeLayer(spec_, spec_.drop_diameter_mm, std::move(centers));
+  return MakeLayer(spec_, spec_.drop_diameter_mm, centers);
 }
 
 void Cover::Fill(DetectTile& tile, Drops& drops) const {

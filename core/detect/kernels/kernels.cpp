@@ -14,7 +14,7 @@ namespace railcast::RAILCAST_ISA {
 
 Kernels MakeKernels();
 
-#define RAILCAST_KERNEL_POINTER(name, function, type) .name = &function,
+#define RAILCAST_KERNEL_POINTER(name, function, type) .name = &(function),
 Kernels MakeKernels() {
   return {.isa = RAILCAST_ISA_NAME, RAILCAST_KERNELS(RAILCAST_KERNEL_POINTER)};
 }

@@ -62,7 +62,8 @@ class SurveyBytes {
   template <class T>
   [[nodiscard]] T Take() {
     T value{};
-    std::memcpy(&value, Take(sizeof(T)).data(), sizeof(T));
+    const std::string_view taken = Take(sizeof(T));
+    std::memcpy(&value, taken.data(), taken.size());
     return value;
   }
   [[nodiscard]] Eigen::Vector3f TakeVector() {
@@ -173,7 +174,7 @@ SurveyFile::SurveyFile(std::filesystem::path file) : file_(std::move(file)) {
                [&] {
                  CheckIsReadable(file_);
                  const std::uint64_t size = std::filesystem::file_size(file_);
-                 constexpr std::size_t kHead = kSurveyMagic.size() + 3 * 4;
+                 constexpr std::size_t kHead = kSurveyMagic.size() + std::size_t{3} * 4;
                  const std::string head = BytesAt(file_, 0, std::min<std::uint64_t>(size, kHead));
                  SurveyBytes counts(head, file_);
                  if (!head.starts_with(kSurveyMagic)) {

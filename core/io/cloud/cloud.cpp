@@ -10,17 +10,19 @@
 namespace railcast {
 namespace {
 
-/// Copies values of some rows from places that are a step apart to others.
+/// Where values lie that are a step apart.
+template <typename Byte>
+struct Places {
+  Byte* next{};
+  std::size_t step{};
+};
+
+/// Copies values of some rows.
 /// @tparam kSize Of a value in bytes, as the compiler needs it for a fast copy; 0 = `size` says it.
 template <std::size_t kSize>
-void CopyValues(std::size_t size,
-                std::size_t num,
-                const char* from,
-                std::size_t from_step,
-                char* to,
-                std::size_t to_step) {
-  for (std::size_t i = 0; i < num; ++i, from += from_step, to += to_step) {
-    std::memcpy(to, from, kSize == 0 ? size : kSize);
+void CopyValues(std::size_t size, std::size_t num, Places<const char> from, Places<char> to) {
+  for (std::size_t i = 0; i < num; ++i, from.next += from.step, to.next += to.step) {
+    std::memcpy(to.next, from.next, kSize == 0 ? size : kSize);
   }
 }
 
@@ -117,9 +119,11 @@ void Transpose(const std::vector<std::size_t>& part_sizes,
                         : size == 2 ? CopyValues<2>
                         : size == 1 ? CopyValues<1>
                                     : CopyValues<0>;
-      copy(size, num, static_cast<const char*>(from) + (is_to_rows ? in_parts : in_rows),
-           is_to_rows ? size : row_size, static_cast<char*>(to) + (is_to_rows ? in_rows : in_parts),
-           is_to_rows ? row_size : size);
+      copy(size, num,
+           {static_cast<const char*>(from) + (is_to_rows ? in_parts : in_rows),
+            is_to_rows ? size : row_size},
+           {static_cast<char*>(to) + (is_to_rows ? in_rows : in_parts),
+            is_to_rows ? row_size : size});
       before += size;
     }
   }

@@ -76,13 +76,13 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     response_.prepare_payload();
     if (request.method() == http::verb::head) response_.body().clear();
     BeginWaiting();
-    http::async_write(stream_, response_,
-                      [self = shared_from_this()](const error_code& error, std::size_t) {
-                        if (error) return;
-                        if (self->response_.keep_alive()) return self->Read();
-                        error_code ignored;
-                        self->stream_.socket().shutdown(Tcp::socket::shutdown_send, ignored);
-                      });
+    http::async_write(
+        stream_, response_, [self = shared_from_this()](const error_code& error, std::size_t) {
+          if (error) return;
+          if (self->response_.keep_alive()) return self->Read();
+          error_code ignored;
+          static_cast<void>(self->stream_.socket().shutdown(Tcp::socket::shutdown_send, ignored));
+        });
   }
 
   beast::tcp_stream stream_;

@@ -290,19 +290,24 @@ std::string FoundSensor::FileText() const {
   return json.dump(2) + '\n';
 }
 
+std::array<double, 2> NearOriginOf(const Frame& frame, const std::vector<CellPoint>& points) {
+  constexpr double kFarthest_m = 1.0;
+  const std::array<double, 2> origin_m = OriginOf(frame, points);
+  if (!(std::max(std::abs(origin_m[0]), std::abs(origin_m[1])) <= kFarthest_m)) {
+    throw InputError("its beams must leave within 1 m of its origin (got " +
+                     ShortText(origin_m[0]) + " m outwards, " + ShortText(origin_m[1]) + " m up)");
+  }
+  return origin_m;
+}
+
 FoundSensor FindSensor(const RecordedFrame& recorded) {
   if (!recorded.is_grid) throw InputError(recorded.why_no_grid);
   const Frame& frame = recorded.frame;
   const std::vector<CellPoint> points = PointsOfGrid(frame);
   if (points.empty()) throw InputError("it has no points");
   FoundSensor found;
-  const std::array<double, 2> origin_m = OriginOf(frame, points);
+  const std::array<double, 2> origin_m = NearOriginOf(frame, points);
   if (origin_m != std::array{0.0, 0.0}) found.pattern.beam_origin_m = origin_m;
-  constexpr double kFarthest_m = 1.0;
-  if (!(std::max(std::abs(origin_m[0]), std::abs(origin_m[1])) <= kFarthest_m)) {
-    throw InputError("its beams must leave within 1 m of its origin (got " +
-                     ShortText(origin_m[0]) + " m outwards, " + ShortText(origin_m[1]) + " m up)");
-  }
   auto table = MakeScanTable(frame, origin_m);
   std::vector<double> aside_rad;
   constexpr int kPasses = 4;

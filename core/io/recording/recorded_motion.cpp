@@ -31,7 +31,7 @@ RecordedMotion::RecordedMotion(const RecordedFrame& recorded, Compensation wante
 
 Eigen::Vector3f RecordedMotion::PointOf(std::size_t slot) const {
   const Frame& frame = recorded_.frame;
-  const Eigen::Vector3f measured_m(frame.x[slot], frame.y[slot], frame.z[slot]);
+  Eigen::Vector3f measured_m(frame.x[slot], frame.y[slot], frame.z[slot]);
   if (!is_sensor_undone_) return measured_m;
   const std::uint32_t time_ns = frame.time_ns[slot];
   Vector3 point_m = motion_.AtStamp(measured_m.cast<double>(), time_ns);

@@ -37,9 +37,9 @@ std::string ProgramDifference(const std::string& key,
 // A reference, because the library copies and writes recursively, and the member may be deeply
 // nested.
 const Json& MemberOf(const Json& object, const std::string& key) {
-  static const Json kNothing;
+  static const Json nothing;
   const auto member = object.find(key);
-  return member == object.end() ? kNothing : *member;
+  return member == object.end() ? nothing : *member;
 }
 
 std::string ValuesText(const std::string& name, const Json& found, const Json& ours) {

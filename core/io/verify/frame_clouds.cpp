@@ -52,9 +52,9 @@ std::optional<OutcomeCounts> FiringsPerOutcome(const Cloud& cloud,
   bool is_known = true;
   VisitField(cloud, column, [&](std::size_t i, auto value) {
     if (i % returns != 0) return;
-    const auto outcome = static_cast<std::size_t>(value);
-    is_known = is_known && outcome < counts.size();
-    if (is_known) ++counts[outcome];
+    const auto outcome = static_cast<double>(value);
+    is_known = is_known && outcome >= 0.0 && outcome < static_cast<double>(counts.size());
+    if (is_known) ++counts[static_cast<std::size_t>(outcome)];
   });
   if (!is_known) return std::nullopt;
   return counts;

@@ -80,8 +80,8 @@ Vector3 SecondDerivative(const FiveVectors& at) {
 
 /// Axis times angle of a small rotation. Unlike Eigen's, it loses no digits near none.
 Vector3 SmallRotation_rad(const Eigen::Matrix3d& turn) {
-  const Vector3 sine(0.5 * (turn(2, 1) - turn(1, 2)), 0.5 * (turn(0, 2) - turn(2, 0)),
-                     0.5 * (turn(1, 0) - turn(0, 1)));
+  Vector3 sine(0.5 * (turn(2, 1) - turn(1, 2)), 0.5 * (turn(0, 2) - turn(2, 0)),
+               0.5 * (turn(1, 0) - turn(0, 1)));
   const double sine_of_angle = sine.norm();
   if (sine_of_angle == 0.0) return sine;
   const double angle_rad = std::atan2(sine_of_angle, 0.5 * (turn.trace() - 1.0));

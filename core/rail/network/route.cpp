@@ -177,13 +177,13 @@ void CheckPositions(const WorldSpec& world,
                     const NetworkDraft& network,
                     const Route& route,
                     const RouteSpec& spec,
-                    double from_s_m,
                     WorldFaults& faults) {
   for (const RoutePassage& passage : route.passages) {
     const TurnoutSite& turnout = network.turnouts[passage.turnout];
     const TrackSpec& branch = world.tracks[turnout.branch];
     const std::optional<TurnoutSpec>& given = turnout.opens_ahead() ? branch.begin : branch.end;
-    const bool is_ahead = spec.runs_back ? turnout.s_m <= from_s_m : turnout.s_m >= from_s_m;
+    const bool is_ahead =
+        spec.runs_back ? turnout.s_m <= spec.from_s_m : turnout.s_m >= spec.from_s_m;
     if (!is_ahead || !given->position || *given->position == passage.position) continue;
     faults.Add(TrackPointer(turnout.branch) +
                    (turnout.opens_ahead() ? "/begin/position" : "/end/position"),

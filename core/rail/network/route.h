@@ -15,7 +15,8 @@ namespace railcast {
 struct RouteSpec {
   std::string pointer;  ///< Of the list of names, or of the single name.
   std::vector<std::string> tracks;
-  bool runs_back{};  ///< Whether it runs towards falling chainage.
+  bool runs_back{};   ///< Whether it runs towards falling chainage.
+  double from_s_m{};  ///< Where it is entered.
 };
 
 /// A turnout that a route passes, and where its blades must lead.
@@ -50,13 +51,12 @@ struct Route {
                                              const RouteSpec& spec,
                                              WorldFaults& faults);
 
-/// Reports turnouts whose given position is not the one that the route needs, from `from_s_m` on in
-/// the direction of travel.
+/// Reports turnouts whose given position is not the one that the route needs, from where it is
+/// entered on in the direction of travel.
 void CheckPositions(const WorldSpec& world,
                     const NetworkDraft& network,
                     const Route& route,
                     const RouteSpec& spec,
-                    double from_s_m,
                     WorldFaults& faults);
 
 /// Sets the turnouts without a given position as the route needs them.

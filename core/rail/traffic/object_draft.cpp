@@ -50,7 +50,8 @@ RouteSpec RouteOf(const Follower& follower) {
   const bool has_route = !follower.route.empty();
   return {.pointer = follower.pointer + (has_route ? "/route" : "/track"),
           .tracks = has_route ? follower.route : std::vector<std::string>{follower.track},
-          .runs_back = follower.motion.reverse};
+          .runs_back = follower.motion.reverse,
+          .from_s_m = follower.s_m};
 }
 
 /// The route of a vehicle or an object. That a single track exists and that the beginning lies on
@@ -70,7 +71,7 @@ std::optional<Route> DraftRoute(const TracksOfWorld& tracks,
                NumberText(follower.s_m));
   }
   if (!follower.motion.profile.empty()) {
-    CheckPositions(tracks.world, tracks.network, *route, spec, follower.s_m, faults);
+    CheckPositions(tracks.world, tracks.network, *route, spec, faults);
   }
   return route;
 }

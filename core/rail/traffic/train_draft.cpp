@@ -108,8 +108,11 @@ void CheckTurnoutsBelow(const StandingTrain& train,
     const double s_m = tracks.network.turnouts[passage.turnout].s_m;
     return !(s_m > least_m && s_m < most_m);
   });
-  const RouteSpec spec{.pointer = train.way_pointer, .tracks = {}, .runs_back = train.runs_back};
-  CheckPositions(tracks.world, tracks.network, below, spec, rear_s_m, faults);
+  const RouteSpec spec{.pointer = train.way_pointer,
+                       .tracks = {},
+                       .runs_back = train.runs_back,
+                       .from_s_m = rear_s_m};
+  CheckPositions(tracks.world, tracks.network, below, spec, faults);
 }
 
 }  // namespace

@@ -159,18 +159,22 @@ std::vector<std::string> TracksUnder(const RailWorld& world, std::size_t object,
   return names;
 }
 
+struct ProbedObject {
+  std::size_t index{};
+  bool is_on_its_track{};
+  std::int64_t time_ns{};
+};
+
 std::vector<GaugeEntry> EntriesOfObject(const WorldTracks& tracks,
                                         const RailWorld& world,
-                                        std::size_t object,
-                                        bool is_on_its_track,
-                                        std::int64_t time_ns,
+                                        const ProbedObject& object,
                                         Asked asked) {
-  const double s_m = world.ObjectChainage_m(object, time_ns);
+  const double s_m = world.ObjectChainage_m(object.index, object.time_ns);
   std::vector<std::string> own_tracks;
-  if (is_on_its_track) own_tracks = TracksUnder(world, object, s_m);
+  if (object.is_on_its_track) own_tracks = TracksUnder(world, object.index, s_m);
   Probes probes(tracks, world.alignment(), asked, own_tracks);
-  const SceneObject& probed = world.objects()[object];
-  probes.Add(*probed.model, world.WorldFromObject(object, time_ns), s_m);
+  const SceneObject& probed = world.objects()[object.index];
+  probes.Add(*probed.model, world.WorldFromObject(object.index, object.time_ns), s_m);
   std::vector<GaugeEntry> entries;
   probes.Report(probed.name, entries);
   return entries;
@@ -186,7 +190,7 @@ std::vector<GaugeEntry> FindObjectInTheWay(const WorldSpec& given_spec,
   WorldSpec spec = given_spec;
   spec.tracks = world.tracks();
   const WorldTracks tracks{spec, world.network().courses};
-  return EntriesOfObject(tracks, world, object, is_on_its_track, time_ns, Asked::kWhatIsInTheWay);
+  return EntriesOfObject(tracks, world, {object, is_on_its_track, time_ns}, Asked::kWhatIsInTheWay);
 }
 
 StructuresInGauge FindStructuresInGauge(const WorldSpec& spec,
@@ -230,7 +234,7 @@ std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& given_spec, const Rail
     const bool is_on_its_track =
         i >= num_objects || (IsRailVehicle(spec.objects[i].type) && spec.objects[i].d_m == 0.0);
     for (GaugeEntry& entry :
-         EntriesOfObject(tracks, world, i, is_on_its_track, 0, Asked::kWhatIsNotClear)) {
+         EntriesOfObject(tracks, world, {i, is_on_its_track}, Asked::kWhatIsNotClear)) {
       entries.push_back(std::move(entry));
     }
   }

@@ -140,8 +140,9 @@ GaugeClearance OwnTrack::ClearanceAhead(const Transform& world_from_vehicle,
   const int num_y = PiecesOf(size_m.y());
   const Vector3 piece_m(size_m.x() / num_x, size_m.y() / num_y, size_m.z());
   for (int i = 0; i < num_x * num_y; ++i) {
+    const int across = i / num_x;
     const Vector3 center_m(piece_m.x() * (i % num_x + 0.5) - 0.5 * size_m.x(),
-                           piece_m.y() * (i / num_x + 0.5) - 0.5 * size_m.y(), 0.0);
+                           piece_m.y() * (across + 0.5) - 0.5 * size_m.y(), 0.0);
     Transform world_from_piece = world_from_box;
     world_from_piece.translate(center_m);
     const double s_m = Refined_m(box_s_m, world_from_piece.translation());

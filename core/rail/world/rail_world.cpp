@@ -42,6 +42,7 @@ SharedLines::~SharedLines() = default;
 RailWorld::RailWorld(const RailWorld& like, std::shared_ptr<const Things> things)
     : line_(like.line_), setting_(like.setting_), things_(std::move(things)) {}
 
+// NOLINTNEXTLINE(readability-function-size): makes one member after the other
 RailWorld::RailWorld(const WorldSpec& world,
                      const VehicleSpec& vehicle,
                      const LabelTable& labels,
@@ -283,7 +284,7 @@ RigidMotion RailWorld::VehicleMotion(std::int64_t time_ns) const {
 
 Transform RailWorld::WorldFromVehicleAt(double s_m, double speed_mps) const {
   const TrackPath& path = things_->vehicle;
-  const Transform world_from_perfect = path.WorldFromObjectAt(line_->alignment, s_m);
+  Transform world_from_perfect = path.WorldFromObjectAt(line_->alignment, s_m);
   const std::optional<Ride>& ride = setting_->ride;
   if (!ride) return world_from_perfect;
   return world_from_perfect * ride->PerfectFromVehicle(ride->At(s_m, speed_mps, path.reverse()));

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 template <typename Message>
 bag::BagTopic TopicOf(std::string name) {
-  const ros::MessageType type = ros::TypeOf<Message>();
+  const ros::MessageType& type = ros::TypeOf<Message>();
   return {std::move(name), type.name, type.definition, type.hash};
 }
 

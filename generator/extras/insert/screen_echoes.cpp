@@ -119,12 +119,11 @@ void ScreenEchoes::Judge(EchoTiles& echoes, const std::vector<float>& exact) con
     // The recorded intensity has the noise and the gain of its sensor in it.
     if (is_physical) tile.intensity[lane] = exact[number];
     Outcome outcome = OutcomeAt(echo);
-    if (is_physical && IsDetected(echo)) {
-      outcome = Outcome::kReturned;
-    } else if (is_physical) {
+    if (is_physical && !IsDetected(echo)) {
       const bool is_covered = has_cover && tile.cover[lane] < 1.0F && tile.bare_ratio[lane] >= 1.0F;
       outcome = is_covered ? Outcome::kCoverBlocked : Outcome::kBelowThreshold;
-    } else if (outcome != Outcome::kBelowThreshold && outcome != Outcome::kRainAbsorbed) {
+    } else if (is_physical ||
+               (outcome != Outcome::kBelowThreshold && outcome != Outcome::kRainAbsorbed)) {
       outcome = Outcome::kReturned;  // What noise does, or chance, has been recorded.
     }
     tile.outcome[lane] = static_cast<std::uint32_t>(outcome);

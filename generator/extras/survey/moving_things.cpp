@@ -36,6 +36,7 @@ std::uint64_t FineCellOf(const Vector3& point_m) {
 /// Calls `visit(key, begin_m, end_m)` for each cell of a grid that a ray meets between two ranges,
 /// in order, with the ranges within the cell (Amanatides and Woo 1987).
 template <class Visit>
+// NOLINTNEXTLINE(readability-function-size): a ray and a grid
 void WalkCells(const Vector3& origin_m,
                const Vector3& direction,
                double begin_m,

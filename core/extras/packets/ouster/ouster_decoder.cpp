@@ -211,7 +211,7 @@ std::optional<std::string> OusterDecoder::StoreReturn(const EditedReturn& edited
     const double unit_m = 1e-3 * layout_.range_unit_mm();
     const double stated_m = static_cast<double>(edited.range_m) + metadata_.range_offset_m();
     const double num_units = std::round(stated_m / unit_m);
-    const double most = layout_.most_range_mm() / layout_.range_unit_mm();
+    const std::uint32_t most = layout_.most_range_mm() / layout_.range_unit_mm();
     // Written so that NaN is refused, too.
     if (!(num_units >= 1.0 && num_units <= most)) {
       return RefuseRange(static_cast<double>(edited.range_m), unit_m,

@@ -49,6 +49,7 @@ class WindowResiduals {
   using ValueType = Eigen::VectorXd;
   using JacobianType = Eigen::MatrixXd;
   using QRSolver = Eigen::ColPivHouseholderQR<JacobianType>;
+  // NOLINTNEXTLINE(readability-identifier-naming): names that Eigen asks for
   enum { InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic };
 
   explicit WindowResiduals(const PlanWindow& window);

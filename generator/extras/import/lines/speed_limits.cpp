@@ -146,12 +146,12 @@ double UsualSpeed_kmph(const MapTags& tags, double running_kmph) {
 }
 
 double SpeedInArc_kmph(double radius_m) {
-  static const AlignmentSpec kRule;  // Of cants.
+  static const AlignmentSpec rule;  // Of cants.
   constexpr double kWithoutCant_m = 50.0;
   constexpr double kRadiusOfCant_mPerMm = 1.5;
   const double cant_mm =
-      std::clamp((radius_m - kWithoutCant_m) / kRadiusOfCant_mPerMm, 0.0, kRule.cant_max_mm);
-  return std::sqrt(radius_m * (kRule.cant_deficiency_mm + cant_mm) / kBalancingCant);
+      std::clamp((radius_m - kWithoutCant_m) / kRadiusOfCant_mPerMm, 0.0, rule.cant_max_mm);
+  return std::sqrt(radius_m * (rule.cant_deficiency_mm + cant_mm) / kBalancingCant);
 }
 
 std::vector<StepSpeed> SpeedsAlong(const RailMap& map, const TrackLine& line, double running_kmph) {

@@ -127,16 +127,16 @@ void AddLine(const MapLine& line, NodeIndex& nodes, RailMap& map, ErrorList& err
 class NearbyMetres {
  public:
   explicit NearbyMetres(const Eigen::Vector2d& about_deg)
-      : scale_m(kPerDegree_m * std::cos(about_deg.y() * std::numbers::pi / 180.0), kPerDegree_m) {}
+      : scale_m_(kPerDegree_m * std::cos(about_deg.y() * std::numbers::pi / 180.0), kPerDegree_m) {}
 
   [[nodiscard]] Eigen::Vector2d Step_m(const Eigen::Vector2d& from_deg,
                                        const Eigen::Vector2d& to_deg) const {
-    return (to_deg - from_deg).cwiseProduct(scale_m);
+    return (to_deg - from_deg).cwiseProduct(scale_m_);
   }
 
  private:
   static constexpr double kPerDegree_m = 111.3e3;
-  Eigen::Vector2d scale_m;
+  Eigen::Vector2d scale_m_;
 };
 
 /// Leaves lines with two different points or more.

@@ -119,9 +119,9 @@ class RunCutter {
   /// Whether a point continues others in their direction and along the line.
   [[nodiscard]] static bool GoesOn(const std::vector<Eigen::Vector2d>& points_m,
                                    const Eigen::Vector2d& point_m) {
-    const double kSteepest = std::tan(20.0 * std::numbers::pi / 180.0);
+    const double steepest = std::tan(20.0 * std::numbers::pi / 180.0);
     const Eigen::Vector2d step_m = point_m - points_m.back();
-    if (!(std::abs(step_m.y()) < kSteepest * std::abs(step_m.x()))) return false;
+    if (!(std::abs(step_m.y()) < steepest * std::abs(step_m.x()))) return false;
     return points_m.size() < 2 || step_m.x() * (points_m[1].x() - points_m[0].x()) > 0.0;
   }
 

@@ -145,6 +145,7 @@ class WaysAccount {
   }
 
   /// @param s Of the whole step.
+  // NOLINTNEXTLINE(readability-function-size): a stretch of a way, and what is there
   void Make(const WayStep& step,
             const ChainageRange& s,
             const ChainageRange& shares,
@@ -299,8 +300,8 @@ std::vector<std::string> KindsOf(const std::vector<AccountRow>& rows) {
 
 /// A reason without the names of tracks, which differ from world to world.
 std::string WithoutNames(const std::string& reason) {
-  static const std::regex kName("track [a-z]+_[0-9]+");
-  return std::regex_replace(reason, kName, "another track");
+  static const std::regex name("track [a-z]+_[0-9]+");
+  return std::regex_replace(reason, name, "another track");
 }
 
 }  // namespace

@@ -138,7 +138,7 @@ class PlatformAccount {
                                                         double side,
                                                         const Eigen::Vector2d& edge_m,
                                                         const std::vector<Segment>& segments) {
-    const double kLeastAlong = std::sqrt(0.5);  // 45 degrees.
+    const double least_along = std::sqrt(0.5);  // 45 degrees.
     std::optional<Passing> nearest;
     for (const Segment& segment : segments) {
       const double share = std::clamp(
@@ -149,7 +149,7 @@ class PlatformAccount {
       if (distance_m > kFarthest_m || (nearest && distance_m >= nearest->distance_m)) continue;
       if (side * (edge_m.x() * aside_m.y() - edge_m.y() * aside_m.x()) <= 0.0) continue;
       const double along = std::abs(edge_m.normalized().dot(segment.step_m.normalized()));
-      if (along < kLeastAlong) continue;
+      if (along < least_along) continue;
       nearest = {segment, share, foot_m, distance_m};
     }
     return nearest;

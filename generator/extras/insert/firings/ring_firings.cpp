@@ -86,6 +86,7 @@ double MeanWithin(const std::vector<double>& angles_rad, double step_rad) {
   return std::atan2(sine, cosine) / kTurn_rad * step_rad;
 }
 
+// NOLINTNEXTLINE(readability-function-size): what was measured of the rows
 TurnRows RowsOfTurn(const ScanTable& table,
                     const Channels& channels,
                     std::vector<std::uint32_t> of_old,

@@ -242,13 +242,13 @@ void UseSensorOf(const std::filesystem::path& recording,
                  ScenarioSpec& plan,
                  std::vector<std::string>& remarks) {
   // A constant, for GCC 12 fears that a temporary one is destroyed unset.
-  static const LidarSpec kUnset;
+  static const LidarSpec unset;
   if (const auto& classes = plan.lidar.beam.footprint_of; !classes.empty()) {
     throw InputError({{plan.sources.Place("/lidar/beam/footprint_of"),
                        "must be left out: of what classes recorded surfaces are is not known",
                        Json(classes).dump()}});
   }
-  if (plan.lidar != kUnset) return;
+  if (plan.lidar != unset) return;
   const RecordingInfo info = OpenRecording(recording)->info();
   std::optional<LidarSpec> lidar = SensorOfSequence(info);
   const bool is_own = lidar.has_value();

@@ -176,7 +176,7 @@ RecordedLine LineOfWay(const RecordedWay& way, const std::string& source) {
                                                         way.at_frames.front().linear().col(0));
   RecordedLine line;
   // Plan points near 0, as far as the world's may be from it.
-  const Vector3 origin = places.front();
+  const Vector3& origin = places.front();
   line.alignment.origin_m = {origin.x(), origin.y(), origin.z()};
   AlignmentSplineSpec spline;
   for (const Vector3& place : places) {

@@ -128,6 +128,7 @@ std::vector<StandOnRecording> LetGoOfGround(ScenarioSpec& plan) {
   return stands;
 }
 
+// NOLINTNEXTLINE(readability-function-size): adds to what is known of each
 void StandOnGround(const std::filesystem::path& recording,
                    const RecordedWay& way,
                    const ScenarioSpec& plan,
