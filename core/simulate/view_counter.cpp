@@ -108,7 +108,9 @@ bool ViewCounter::FindAlone(Packet& packet) const {
 void ViewCounter::Cast(Packet& packet) const {
   frame_.caster.Cast(packet.rays);
   if (frame_.besides == nullptr) return;
-  frame_.besides->Meet(packet.firings.data(), kPacketSize, packet.rays);
+  // The lanes beyond hold what was there before them, maybe firings of a longer frame.
+  const auto num_firings = static_cast<std::size_t>(std::popcount(packet.lanes));
+  frame_.besides->Meet(packet.firings.data(), num_firings, packet.rays);
 }
 
 void ViewCounter::Count(const Packet& packet) {
