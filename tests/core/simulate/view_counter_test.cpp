@@ -8,6 +8,9 @@
 #include <vector>
 
 #include "core/base/random.h"
+#include "core/simulate/beam_tracer.h"
+#include "core/simulate/frame_scene.h"
+#include "core/simulate/scene_store.h"
 #include "railcast/simulator.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/same_frames.h"
@@ -240,6 +243,36 @@ TEST(ViewCounter, CountsTheSameWithTheRaysOfTheFrame) {
     EXPECT_EQ(views, simulator.ViewObjects(2));
     ExpectSameBytes(frame, expected);
   }
+}
+
+/// Keeps the firings that it is asked of.
+class AskedFirings final : public FiringSurfaces {
+ public:
+  void Meet(const std::uint32_t* firings, std::size_t num, RayTile&) const override {
+    of.insert(of.end(), firings, firings + num);
+  }
+  void Meet(std::uint32_t firing, BeamRays&) const override { of.push_back(firing); }
+  mutable std::vector<std::uint32_t> of;
+};
+
+TEST(ViewCounter, AsksOfNoFiringThatWasThereBefore) {
+  const auto world = WorldOf({{Thicket(1), Transform(Eigen::Translation3d(10.0, 0.0, 0.0)), {}}});
+  FrameScenes scenes(std::make_shared<SceneStore>(world, TestMaterials()), {.range_max_m = 100.0});
+  const BeamTracer tracer(SimulatorSpec{}, TestMaterials().materials(), Pattern());
+  BegunFrame begun = scenes.Begin(0, 0);
+  const FrameScene& scene = scenes.SceneOf(begun);
+  const AskedFirings asked;
+  CastFrame cast{scene.index,      scene.poses, scene,
+                 scene.surfaces(), nullptr,     scene.window->window_from_world};
+  cast.besides = &asked;
+  const auto middle = static_cast<std::uint32_t>(Pattern().num_firings() / 2);
+  const std::vector<std::uint32_t> firings = {middle, middle + 1, middle + 2};
+  BeamTracer::Work work(tracer);
+  std::ranges::fill(work.echoes.first.firing, 0xFFFFFFFFU);  // Of a longer frame.
+  ViewCounter views(cast, *world, scenes.ObjectsAlone(scene));
+  views.Add(tracer, FiringTiles(Pattern(), firings), 0, work);
+  EXPECT_EQ(asked.of, firings);
+  EXPECT_GT(views.Total().front().firings_alone, 0U);
 }
 
 }  // namespace
