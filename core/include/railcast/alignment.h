@@ -31,6 +31,7 @@ struct AlignmentSectionsSpec {
   bool operator==(const AlignmentSectionsSpec&) const = default;
 };
 
+/// Shape of an element of a line.
 enum class ElementType {
   kStraight,
   kClothoid,  ///< Joins the curvatures of the elements before and after it.

@@ -36,6 +36,7 @@ int railcast_c_api_version(void);
 /// Version of railcast, such as "1.0.0" or "1.0.0-rc.1".
 const char* railcast_version(void);
 
+/// Outcome of a function.
 enum railcast_status {
   RAILCAST_OK = 0,
   /// The scenario or a file that it names is faulty; the message has a line for every fault, as
@@ -85,6 +86,7 @@ typedef struct railcast_sim railcast_sim;
 
 /// Makes the simulation of a scenario in its own world. Fidelity `auto` makes its choice here.
 /// @param[out] sim To be given to railcast_destroy(); null if the function fails.
+/// @return RAILCAST_OK, RAILCAST_BAD_INPUT, RAILCAST_BAD_ARGUMENT or RAILCAST_OUT_OF_MEMORY.
 railcast_status railcast_create(const railcast_config* config, railcast_sim** sim);
 
 /// Frees a simulation and everything that railcast_get_...() returned for it. Null is permitted.
@@ -146,6 +148,7 @@ typedef struct railcast_scene railcast_scene;
 /// more than rays do nothing: `spray`, and `thin_conductors`, since wires are surfaces like any
 /// other here. Wind moves patches of fog only: it does not sway the host's trees and wires.
 /// @param[out] sim As for railcast_create().
+/// @return As railcast_create().
 railcast_status railcast_create_with_scene(const railcast_config* config,
                                            const railcast_scene* scene,
                                            railcast_sim** sim);
@@ -166,6 +169,8 @@ struct railcast_scan {
 };
 typedef struct railcast_scan railcast_scan;
 
+/// Tells how the simulation's sensor scans.
+/// @param[out] scan Unchanged on failure.
 railcast_status railcast_get_scan(const railcast_sim* sim, railcast_scan* scan);
 
 /// Simulates a frame of a simulation that railcast_create() made. Frames may be simulated in any
@@ -204,8 +209,11 @@ struct railcast_frame {
 };
 typedef struct railcast_frame railcast_frame;
 
+/// Describes the frame of the last step.
+/// @param[out] frame Unchanged on failure.
 railcast_status railcast_get_frame(const railcast_sim* sim, railcast_frame* frame);
 
+/// Type of a field's values.
 enum railcast_type {
   RAILCAST_FLOAT32 = 1,
   RAILCAST_UINT8 = 2,

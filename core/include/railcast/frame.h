@@ -66,6 +66,7 @@ inline constexpr auto kEnumNames<OutputFrame> =
                                           {OutputFrame::kVehicle, "vehicle"},
                                           {OutputFrame::kWorld, "world"}});
 
+/// Handedness of the axes of the output points.
 enum class Handedness {
   kRight,
   kLeft,  ///< y is negated, as in Unreal Engine.

@@ -38,6 +38,7 @@ struct FacingSpec : PointSpec {
   bool operator==(const FacingSpec&) const = default;
 };
 
+/// Kind of a signal, which sets its height and its face.
 enum class SignalKind { kMain, kDistant, kShunting };
 template <>
 inline constexpr auto kEnumNames<SignalKind> =
@@ -45,12 +46,14 @@ inline constexpr auto kEnumNames<SignalKind> =
                                          {SignalKind::kDistant, "distant"},
                                          {SignalKind::kShunting, "shunting"}});
 
+/// A signal on its post.
 struct SignalSpec : FacingSpec {
   SignalKind kind{};
 
   bool operator==(const SignalSpec&) const = default;
 };
 
+/// Kind of a board, which sets its shape, size and height.
 enum class BoardKind {
   kSpeed,              ///< A rectangle, as where a speed begins (Lf 7).
   kSpeedAnnouncement,  ///< A triangle on its tip, as ahead of it (Lf 6).
@@ -64,6 +67,7 @@ inline constexpr auto kEnumNames<BoardKind> =
                                         {BoardKind::kKilometre, "kilometre"},
                                         {BoardKind::kFoulingPoint, "fouling_point"}});
 
+/// A signal board on its post.
 struct BoardSpec : FacingSpec {
   BoardKind kind{};
   std::optional<std::array<double, 2>> size_m;  ///< Width, height; absent = by kind.
@@ -92,6 +96,7 @@ struct RelayBoxSpec : PointSpec {
   bool operator==(const RelayBoxSpec&) const = default;
 };
 
+/// Kind of furniture, which sets its shape and size.
 enum class FurnitureKind { kLamp, kBench, kShelter };
 template <>
 inline constexpr auto kEnumNames<FurnitureKind> =
@@ -110,6 +115,7 @@ struct FurnitureSpec : PointSpec {
   bool operator==(const FurnitureSpec&) const = default;
 };
 
+/// One of the two ends of a track.
 enum class TrackTip { kBegin, kEnd };
 template <>
 inline constexpr auto kEnumNames<TrackTip> =
@@ -124,6 +130,7 @@ struct BufferStopSpec {
   bool operator==(const BufferStopSpec&) const = default;
 };
 
+/// Barriers of a level crossing and where they stand.
 enum class BarrierState { kNone, kOpen, kClosed };
 template <>
 inline constexpr auto kEnumNames<BarrierState> =
@@ -155,6 +162,7 @@ struct LevelCrossingSpec : PointSpec {
   bool operator==(const LevelCrossingSpec&) const = default;
 };
 
+/// Shape of a building's roof.
 enum class RoofKind { kFlat, kGable };
 template <>
 inline constexpr auto kEnumNames<RoofKind> =

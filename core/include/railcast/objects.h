@@ -173,6 +173,7 @@ inline const ObjectType ObjectType::kMesh{.shape = "mesh"};
   return type.model && type.model->rail_vehicle;
 }
 
+/// Posture of a person.
 enum class Posture { kWalking, kStanding, kCrouching, kSitting, kLying };
 template <>
 inline constexpr auto kEnumNames<Posture> =
@@ -182,11 +183,13 @@ inline constexpr auto kEnumNames<Posture> =
                                       {Posture::kSitting, "sitting"},
                                       {Posture::kLying, "lying"}});
 
+/// Build of a person, which sets the body's size.
 enum class Physique { kMan, kWoman, kChild };
 template <>
 inline constexpr auto kEnumNames<Physique> = std::to_array<EnumName<Physique>>(
     {{Physique::kMan, "man"}, {Physique::kWoman, "woman"}, {Physique::kChild, "child"}});
 
+/// What a person wears.
 enum class Clothing {
   kPlain,
   kHiVis,  ///< With retroreflective bands (EN ISO 20471).

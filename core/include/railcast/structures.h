@@ -62,6 +62,7 @@ struct NoiseWallSpec : SideStretchSpec {
   bool operator==(const NoiseWallSpec&) const = default;
 };
 
+/// What is stretched between the posts of a fence.
 enum class FenceType {
   kWires,  ///< Line wires.
   kMesh,   ///< Mats of upright and lying rods.
@@ -131,6 +132,7 @@ struct OverbridgeSpec : StretchSpec {
   bool operator==(const OverbridgeSpec&) const = default;
 };
 
+/// Side of a conductor rail that the vehicle's shoes touch.
 enum class ContactSide {
   kTop,     ///< Shoes run on top; boards stand to either side.
   kBottom,  ///< Shoes run below; a cover lies over the rail.

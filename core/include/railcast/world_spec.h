@@ -14,6 +14,7 @@
 
 namespace railcast {
 
+/// Type of sleeper, which sets its shape and material.
 enum class SleeperType {
   kConcrete,  ///< B70.
   kWood,
@@ -141,6 +142,7 @@ template <>
 inline constexpr auto kEnumNames<GroundCover> = std::to_array<EnumName<GroundCover>>(
     {{GroundCover::kSoil, "soil"}, {GroundCover::kFields, "fields"}});
 
+/// The ground beside the tracks.
 struct TerrainSpec {
   /// Half width of the ground strip. If it is at least the line's tightest radius, the strip is
   /// narrower inside tight curves (core/rail/landform/landform.h).
@@ -167,6 +169,7 @@ template <>
 inline constexpr auto kEnumNames<SceneDetail> = std::to_array<EnumName<SceneDetail>>(
     {{SceneDetail::kAuto, "auto"}, {SceneDetail::kFull, "full"}});
 
+/// Trees, bushes and grass beside the tracks.
 struct VegetationSpec {
   double trees_per_hectare = 40.0;
   double tree_min_distance_m = 9.0;  ///< From the outermost track axis.
