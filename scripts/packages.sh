@@ -26,6 +26,7 @@ first_packages=(
 second_packages=(
   libboost-dev
   libkainjow-mustache-dev
+  liblz4-dev
   libnlopt-cxx-dev
   libpcl-dev
   libvtk9-dev
@@ -56,7 +57,6 @@ build_packages=(
   libfastcdr-dev
   libfastrtps-dev
   libgdal-dev
-  liblz4-dev
   libpcap-dev
   libproj-dev
   libprotobuf-dev
