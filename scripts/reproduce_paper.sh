@@ -22,7 +22,7 @@ if (($# != 1)) || [[ "$1" == -* ]]; then
   exit 2
 fi
 install_packages "${build_packages[@]}" "${display_packages[@]}" "${paper_packages[@]}"
-scripts/build.sh railcast-generate railcast-analyze railcast-view railcast-modules railcast-settings
+scripts/build.sh railcast-generate railcast-analyze railcast-view railcast-measure
 
 mkdir -p "$1/images"
 out=$(realpath "$1")
@@ -41,8 +41,8 @@ draw() {
 }
 
 echo "Tables 1 and 2"
-build/release/tests/bench/railcast-modules --scans "$scans" > "$runs/modules.md"
-build/release/tests/bench/railcast-settings --turns "$turns" > "$runs/settings.md"
+build/release/tests/bench/railcast-measure modules --scans "$scans" > "$runs/modules.md"
+build/release/tests/bench/railcast-measure settings --turns "$turns" > "$runs/settings.md"
 
 echo "Figures"
 printf '{"version": 1, "file": "%s", "camera": {"width_px": 600, "height_px": 375,
@@ -71,13 +71,13 @@ docs/results/published.md explains the tables and pictures and says what differs
 
 ## Table 1: the four modules
 
-\`build/release/tests/bench/railcast-modules --scans $scans\`
+\`build/release/tests/bench/railcast-measure modules --scans $scans\`
 
 $(cat "$runs/modules.md")
 
 ## Table 2: the settings
 
-\`build/release/tests/bench/railcast-settings --turns $turns\`
+\`build/release/tests/bench/railcast-measure settings --turns $turns\`
 
 $(cat "$runs/settings.md")
 

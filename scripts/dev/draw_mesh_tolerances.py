@@ -4,7 +4,7 @@ a scan, for docs/results/detail.md.
 
     scripts/dev/draw_mesh_tolerances.py BUILD PICTURE
 
-BUILD has the benchmark tests/bench/railcast-meshes. Prints its lines, too.
+BUILD has the benchmark tests/bench/railcast-measure. Prints its lines, too.
 """
 
 import subprocess
@@ -29,7 +29,7 @@ MESHES = {
 def measure(build, name):
     """[(tolerance in mm, share of triangles, time of a ray relative to the mesh as it is)]."""
     file, options = MESHES[name]
-    done = subprocess.run([build / "tests/bench/railcast-meshes", DATA / file, *options,
+    done = subprocess.run([build / "tests/bench/railcast-measure", "meshes", DATA / file, *options,
                            "--tolerances", "0,2.5,5,10,20"],
                           check=True, capture_output=True, text=True)
     print(done.stdout, end="", flush=True)

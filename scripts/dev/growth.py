@@ -1,8 +1,8 @@
 """How the time of a frame grows: the charts and tables of docs/results/performance.md, for measure_results.py.
 
-Each chart varies one thing of the demo (scripts/dev/growth_scenarios.py), in turns in one process (railcast-scaling) or
-run by run (railcast-generate sequence), and keeps the least of the times; on one thread, of the times that the
-processor spent on it. The charts are docs/images/performance_NAME.png.
+Each chart varies one thing of the demo (scripts/dev/growth_scenarios.py), in turns in one process (railcast-measure
+scaling) or run by run (railcast-generate sequence), and keeps the least of the times; on one thread, of the times that
+the processor spent on it. The charts are docs/images/performance_NAME.png.
 """
 
 import csv
@@ -37,7 +37,7 @@ def all_threads():
 
 
 def charts():
-    """The charts that railcast-scaling measures, by name. Rows are (x or None, scenario)."""
+    """The charts that railcast-measure scaling measures, by name. Rows are (x or None, scenario)."""
     counts = [0, 1, 10, 30, 100, 300, 1000]
     return {
         "threads": Chart("threads", "threads", "threads", [(None, scenarios.demo())],
@@ -71,14 +71,14 @@ def charts():
 
 
 def measure_scaling(build, chart):
-    """Runs railcast-scaling on a chart's scenarios; a dictionary of numbers for each line."""
+    """Runs railcast-measure scaling on a chart's scenarios; a dictionary of numbers for each line."""
     chart.prepare()
     with tempfile.TemporaryDirectory() as folder:
         files = []
         for i, (_, scenario) in enumerate(chart.rows):
             files.append(pathlib.Path(folder) / f"{i}.json")
             files[-1].write_text(json.dumps(scenario))
-        command = [build / "tests/bench/railcast-scaling", *files, *chart.options]
+        command = [build / "tests/bench/railcast-measure", "scaling", *files, *chart.options]
         said = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
     lines = list(csv.DictReader(said.splitlines(), delimiter="\t"))
     is_on_one_thread = all(line["threads"] == "1" for line in lines)
@@ -150,7 +150,7 @@ def measure_sequence(build, file):
 
 def measure_stages(build, file):
     """Of a frame of a sequence, on one thread."""
-    said = subprocess.run([build / "tests/bench/railcast-stages", file], check=True,
+    said = subprocess.run([build / "tests/bench/railcast-measure", "stages", file], check=True,
                           stdout=subprocess.PIPE, text=True).stdout
     rows = [[cell.strip() for cell in line.strip("|").split("|")]
             for line in said.splitlines()[2:]]
@@ -255,7 +255,7 @@ HEADS = {"raw_ms": "raw trace ms", "frame_ms": "frame ms", "ratio": "time x raw 
          "memory_mb": "memory MB", "build_s": "build s", "length_km": "km", "write_ms": "bytes alone ms",
          "disk_ms": "frame on disk ms", "bytes": "bytes a frame", "per_s": "frames/s", "stage_ms": "ms",
          "share": "time x raw trace"}
-# Those that are not charts of railcast-scaling: what measures them, and their columns.
+# Those that are not charts of railcast-measure scaling: what measures them, and their columns.
 OF_THE_DEMO = {"sequence": (measure_sequence, ["threads", "raw_ms", "frame_ms", "per_s", "ratio"]),
                "stages": (measure_stages, ["stage", "stage_ms", "share"]),
                "disk": (measure_disk, ["format", "bytes", "raw_ms", "write_ms", "frame_ms", "disk_ms"])}

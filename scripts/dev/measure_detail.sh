@@ -10,7 +10,7 @@ if [[ ! -x /usr/bin/time ]]; then
   echo "error: needs GNU time; as root, run: apt-get install time" >&2
   exit 1
 fi
-compare=build/release/tests/bench/railcast-detail
+compare=(build/release/tests/bench/railcast-measure detail)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -23,14 +23,14 @@ for sensor in vir2rail pandar64 vls128; do
       "$PWD/scenarios/sensors/$sensor.json" >"$work/scenario.json"
     for rung in surface footprint; do
       printf '\n%s, %s%s\n\n' "$sensor" "$rung" "$plants"
-      "$compare" "$work/scenario.json" --rung "$rung" --frames "${1:-60}"
+      "${compare[@]}" "$work/scenario.json" --rung "$rung" --frames "${1:-60}"
     done
   done
 done
 for scenario in st_gallen_approach open_line forest_rain; do
   for rung in plausibility footprint; do
     printf '\n%s, %s\n' "$scenario" "$rung"
-    "$compare" "scenarios/$scenario.json" --rung "$rung" --turns 15
+    "${compare[@]}" "scenarios/$scenario.json" --rung "$rung" --turns 15
   done
 done
 for detail in full auto; do

@@ -209,11 +209,11 @@ def of_printed(keys, *command):
 
 
 def modules(build):
-    return {"modules": of_printed(1, build / "tests/bench/railcast-modules", "--scans", 1000)}
+    return {"modules": of_printed(1, build / "tests/bench/railcast-measure", "modules", "--scans", 1000)}
 
 
 def settings(build):
-    return {"settings": of_printed(1, build / "tests/bench/railcast-settings", "--turns", 100)}
+    return {"settings": of_printed(1, build / "tests/bench/railcast-measure", "settings", "--turns", 100)}
 
 
 def drawn(keys, script):

@@ -1,5 +1,5 @@
-// railcast-detail: compares a scene that is coarser far away with full detail, echoes by range and
-// times.
+// railcast-measure detail: compares a scene that is coarser far away with full detail, echoes by
+// range and times.
 
 #include <cstdint>
 #include <filesystem>
@@ -14,9 +14,9 @@
 
 #include "core/fidelity/echoes_by_range.h"
 #include "core/program/command_line.h"
-#include "core/program/program.h"
 #include "railcast/scenario.h"
 #include "tests/bench/mean_surface.h"
+#include "tests/bench/measurements.h"
 #include "tests/bench/scene_cost.h"
 
 namespace railcast {
@@ -192,37 +192,36 @@ void CompareTimes(const Options& options) {
             << Median(ratios[4]) << ", without plants " << Median(ratios[5]) << "\n";
 }
 
-void Add(ProgramOptions& app, ProgramCommand& command) {
+}  // namespace
+
+void AddDetail(ProgramOptions& app, ProgramCommand& command) {
+  ProgramOptions detail =
+      app.AddCommand("detail",
+                     "Compare a scene that is coarser far away with full detail: the echoes of "
+                     "plants, ground and track by range in percent, or with --turns the times");
   const auto options = std::make_shared<Options>();
   static const std::map<std::string, Fidelity> rungs = {{"plausibility", Fidelity::kPlausibility},
                                                         {"surface", Fidelity::kSurface},
                                                         {"footprint", Fidelity::kFootprint}};
-  app.AddOption("SCENARIO", options->scenario, "Scenario with one sensor").Required();
-  app.AddText(
-         "--rung", [options](const std::string& name) { options->rung = rungs.at(name); },
-         "surface or another")
+  detail.AddOption("SCENARIO", options->scenario, "Scenario with one sensor").Required();
+  detail
+      .AddText(
+          "--rung", [options](const std::string& name) { options->rung = rungs.at(name); },
+          "surface or another")
       .Check(Named({"plausibility", "surface", "footprint"}));
-  app.AddOption("--frames", options->num_frames, "Frames, each at another place");
-  app.AddOption("--step", options->step_m, "Metres between them");
-  app.AddOption("--turns", options->num_turns, "Turns in which times are measured");
-  command = [options](const std::string&) {
-    if (options->num_turns > 0) {
-      CompareTimes(*options);
-    } else {
-      CompareEchoes(*options);
-    }
-    return kExitSuccess;
-  };
+  detail.AddOption("--frames", options->num_frames, "Frames, each at another place");
+  detail.AddOption("--step", options->step_m, "Metres between them");
+  detail.AddOption("--turns", options->num_turns, "Turns in which times are measured");
+  detail.WhenParsed([options, &command] {
+    command = [options](const std::string&) {
+      if (options->num_turns > 0) {
+        CompareTimes(*options);
+      } else {
+        CompareEchoes(*options);
+      }
+      return kExitSuccess;
+    };
+  });
 }
 
-}  // namespace
 }  // namespace railcast
-
-int main(int argc, char** argv) {
-  return railcast::ProgramMain({"railcast-detail",
-                                "Compares a scene that is coarser far away with full detail: the "
-                                "echoes of plants, ground and track by range in "
-                                "percent, or with --turns the times",
-                                "", railcast::Add},
-                               argc, argv);
-}

@@ -5,8 +5,8 @@
 // share of rays in percent that meet it with or without simplification but not both, and the memory
 // in MB that preparing it takes. Times are of the processor, summed over the threads.
 //
-//   railcast-meshes FILE... [--up y] [--unit 0.01] [--normals 20] [--tolerances 0,1,2.5]
-//                  [--subdivide 3] [--noise 0.3]
+//   railcast-measure meshes FILE... [--up y] [--unit 0.01] [--normals 20] [--tolerances 0,1,2.5]
+//                           [--subdivide 3] [--noise 0.3]
 //
 // Rays run from six places 20 m from the middle of the mesh, 3 m above its foot, to a grid of
 // points on its box.
@@ -25,9 +25,9 @@
 #include "core/mesh/mesh_import.h"
 #include "core/mesh/simplify.h"
 #include "core/program/command_line.h"
-#include "core/program/program.h"
 #include "core/trace/trace_scene.h"
 #include "tests/bench/dense_mesh.h"
+#include "tests/bench/measurements.h"
 #include "tests/bench/scene_cost.h"
 
 namespace railcast {
@@ -231,27 +231,26 @@ void MeasureFile(const std::string& file, const MeshBenchOptions& options) {
   }
 }
 
-void Add(ProgramOptions& app, ProgramCommand& command) {
-  const auto options = std::make_shared<MeshBenchOptions>();
-  app.AddOption("FILE", options->files, "Mesh files").Required().Check(NonEmpty());
-  app.AddOption("--up", options->up, "Upward axis: y or z").ShowDefault();
-  app.AddOption("--unit", options->unit_m, "Metres per file unit").ShowDefault();
-  app.AddOption("--normals", options->normal_deg, "Deviation of normals").ShowDefault();
-  app.AddOption("--subdivide", options->num_times, "Cut each triangle in four so many times");
-  app.AddOption("--noise", options->noise_mm, "Of the vertices along their normals, in mm");
-  app.AddOption("--tolerances", options->tolerances_mm, "In mm; 0 = as the file is")
-      .SeparatedBy(',');
-  command = [options](const std::string&) {
-    for (const std::string& file : options->files) MeasureFile(file, *options);
-    return kExitSuccess;
-  };
-}
-
 }  // namespace
-}  // namespace railcast
 
-int main(int argc, char** argv) {
-  return railcast::ProgramMain(
-      {"railcast-meshes", "Measures what simplifying meshes costs and gains.", "", railcast::Add},
-      argc, argv);
+void AddMeshes(ProgramOptions& app, ProgramCommand& command) {
+  ProgramOptions meshes =
+      app.AddCommand("meshes", "Measure what simplifying meshes costs and gains");
+  const auto options = std::make_shared<MeshBenchOptions>();
+  meshes.AddOption("FILE", options->files, "Mesh files").Required().Check(NonEmpty());
+  meshes.AddOption("--up", options->up, "Upward axis: y or z").ShowDefault();
+  meshes.AddOption("--unit", options->unit_m, "Metres per file unit").ShowDefault();
+  meshes.AddOption("--normals", options->normal_deg, "Deviation of normals").ShowDefault();
+  meshes.AddOption("--subdivide", options->num_times, "Cut each triangle in four so many times");
+  meshes.AddOption("--noise", options->noise_mm, "Of the vertices along their normals, in mm");
+  meshes.AddOption("--tolerances", options->tolerances_mm, "In mm; 0 = as the file is")
+      .SeparatedBy(',');
+  meshes.WhenParsed([options, &command] {
+    command = [options](const std::string&) {
+      for (const std::string& file : options->files) MeasureFile(file, *options);
+      return kExitSuccess;
+    };
+  });
 }
+
+}  // namespace railcast

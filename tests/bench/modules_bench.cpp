@@ -1,14 +1,13 @@
 // Measures the four modules of the published evaluation (Vir2Rail, Table 1) on railcast's tracer
 // (scan_modules.h), interleaved in one process, and prints a table in Markdown.
 //
-//   railcast-modules [SCENARIO] [--scans N] [--threads N]
+//   railcast-measure modules [SCENARIO] [--scans N] [--threads N]
 //
 // Fails if modules 1, 2 and 3 do not give the same points, bit for bit.
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -18,11 +17,12 @@
 #include <vector>
 
 #include "core/program/command_line.h"
-#include "core/program/program.h"
 #include "core/trace/trace_program.h"
 #include "railcast/error.h"
 #include "railcast/scenario.h"
+#include "tests/bench/measurements.h"
 #include "tests/bench/scan_modules.h"
+#include "tests/bench/scene_cost.h"
 
 namespace railcast {
 namespace {
@@ -43,13 +43,6 @@ struct Row {
   std::function<void()> scan;
   std::vector<double> times_ms{};
 };
-
-double TimeOf_ms(const std::function<void()>& work) {
-  const auto begin = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
-      .count();
-}
 
 double Mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -137,26 +130,25 @@ int RunModules(const ModulesOptions& options) {
   return kExitSuccess;
 }
 
-void Add(ProgramOptions& app, ProgramCommand& command) {
+}  // namespace
+
+void AddModules(ProgramOptions& app, ProgramCommand& command) {
+  ProgramOptions modules =
+      app.AddCommand("modules", "Measure the four modules of the published evaluation");
   const auto options = std::make_shared<ModulesOptions>();
-  app.AddOption("SCENARIO", options->scenario, "Scenario file; default: the demo")
+  modules.AddOption("SCENARIO", options->scenario, "Scenario file; default: the demo")
       .Check(NonEmpty());
-  app.AddOption("--scans", options->num_scans,
-                "Scans of each module; mean, deviation, minimum and maximum are of the first 20")
+  modules
+      .AddOption("--scans", options->num_scans,
+                 "Scans of each module; mean, deviation, minimum and maximum are of the first 20")
       .Check(Whole({2, 1'000'000}))
       .ShowDefault();
-  app.AddOption("--threads", options->num_threads, "Threads of modules 2 to 4; 0 = all cores")
+  modules.AddOption("--threads", options->num_threads, "Threads of modules 2 to 4; 0 = all cores")
       .Check(Whole({0, 1024}))
       .ShowDefault();
-  command = [options](const std::string&) { return RunModules(*options); };
+  modules.WhenParsed([options, &command] {
+    command = [options](const std::string&) { return RunModules(*options); };
+  });
 }
 
-}  // namespace
 }  // namespace railcast
-
-int main(int argc, char** argv) {
-  return railcast::ProgramMain(
-      {"railcast-modules", "Measures the four modules of the published evaluation.", "",
-       railcast::Add},
-      argc, argv);
-}

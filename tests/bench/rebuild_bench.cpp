@@ -2,7 +2,7 @@
 // railcast, which has them as instances of their models: on one thread, in processor time, in turns
 // in one process. Prints tab-separated values.
 //
-//   railcast-rebuild SCENARIO [--turns N]
+//   railcast-measure rebuild SCENARIO [--turns N]
 //
 // For each frame, the vertices of all objects that move are placed anew, and their tree is built
 // anew (Embree's quality for things that move, LOW) or refitted. To either, the raw trace of all
@@ -17,10 +17,10 @@
 #include <vector>
 
 #include "core/program/command_line.h"
-#include "core/program/program.h"
 #include "core/trace/embree.h"
 #include "railcast/scenario.h"
 #include "railcast/scene.h"
+#include "tests/bench/measurements.h"
 #include "tests/bench/scene_cost.h"
 
 namespace railcast {
@@ -136,27 +136,25 @@ int RunRebuild(const std::string& file, int num_turns) {
   return kExitSuccess;
 }
 
-void Add(ProgramOptions& app, ProgramCommand& command) {
+}  // namespace
+
+void AddRebuild(ProgramOptions& app, ProgramCommand& command) {
+  ProgramOptions rebuild =
+      app.AddCommand("rebuild", "Measure what moving things cost in trees built anew");
   struct Options {
     std::string scenario;
     int num_turns = 5;
   };
   const auto options = std::make_shared<Options>();
-  app.AddOption("SCENARIO", options->scenario, "Scenario with objects that move").Required();
-  app.AddOption("--turns", options->num_turns, "Turns that each way takes")
+  rebuild.AddOption("SCENARIO", options->scenario, "Scenario with objects that move").Required();
+  rebuild.AddOption("--turns", options->num_turns, "Turns that each way takes")
       .Check(Whole({1, 1'000'000}))
       .ShowDefault();
-  command = [options](const std::string&) {
-    return RunRebuild(options->scenario, options->num_turns);
-  };
+  rebuild.WhenParsed([options, &command] {
+    command = [options](const std::string&) {
+      return RunRebuild(options->scenario, options->num_turns);
+    };
+  });
 }
 
-}  // namespace
 }  // namespace railcast
-
-int main(int argc, char** argv) {
-  return railcast::ProgramMain(
-      {"railcast-rebuild", "Measures what moving things cost in trees built anew.", "",
-       railcast::Add},
-      argc, argv);
-}

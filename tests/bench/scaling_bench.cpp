@@ -2,7 +2,7 @@
 // in turns in one process. Prints tab-separated values, a line for each scenario and number of
 // threads. scripts/dev/growth.py draws them.
 //
-//   railcast-scaling SCENARIO... [--turns N] [--threads LIST]
+//   railcast-measure scaling SCENARIO... [--turns N] [--threads LIST]
 //
 // Each turn traces and makes frame 0 twice, of which the second time counts; the least over the
 // turns is printed, which other programs on the machine disturb least, and also the least time that
@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "core/program/command_line.h"
-#include "core/program/program.h"
 #include "railcast/scenario.h"
+#include "tests/bench/measurements.h"
 #include "tests/bench/scene_cost.h"
 
 namespace railcast {
@@ -89,25 +89,24 @@ int RunScaling(const ScalingOptions& options) {
   return kExitSuccess;
 }
 
-void Add(ProgramOptions& app, ProgramCommand& command) {
+}  // namespace
+
+void AddScaling(ProgramOptions& app, ProgramCommand& command) {
+  ProgramOptions scaling =
+      app.AddCommand("scaling", "Measure what a frame of each of several scenarios costs");
   const auto options = std::make_shared<ScalingOptions>();
-  app.AddOption("SCENARIO", options->scenarios, "Scenario files").Required().Check(NonEmpty());
-  app.AddOption("--turns", options->num_turns, "Turns that each line takes")
+  scaling.AddOption("SCENARIO", options->scenarios, "Scenario files").Required().Check(NonEmpty());
+  scaling.AddOption("--turns", options->num_turns, "Turns that each line takes")
       .Check(Whole({1, 1'000'000}))
       .ShowDefault();
-  app.AddOption("--threads", options->num_threads,
-                "Numbers of threads, separated by commas; 0 = all cores")
+  scaling
+      .AddOption("--threads", options->num_threads,
+                 "Numbers of threads, separated by commas; 0 = all cores")
       .SeparatedBy(',')
       .Check(Whole({0, 1024}));
-  command = [options](const std::string&) { return RunScaling(*options); };
+  scaling.WhenParsed([options, &command] {
+    command = [options](const std::string&) { return RunScaling(*options); };
+  });
 }
 
-}  // namespace
 }  // namespace railcast
-
-int main(int argc, char** argv) {
-  return railcast::ProgramMain(
-      {"railcast-scaling", "Measures what a frame of each of several scenarios costs.", "",
-       railcast::Add},
-      argc, argv);
-}

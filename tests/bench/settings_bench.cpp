@@ -1,7 +1,7 @@
 // Measures the scene settings of the published evaluation (Vir2Rail, Table 2; scene_settings.h) and
 // prints a table in Markdown.
 //
-//   railcast-settings [SCENARIO] [--turns N] [--threads N]
+//   railcast-measure settings [SCENARIO] [--turns N] [--threads N]
 //
 // Build time, memory and points come from a process of their own for each setting. Then all
 // settings take turns in one process: each makes one frame to warm the caches and three that count.
@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "core/program/command_line.h"
-#include "core/program/program.h"
 #include "core/trace/trace_program.h"
 #include "railcast/scenario.h"
+#include "tests/bench/measurements.h"
 #include "tests/bench/scene_cost.h"
 #include "tests/bench/scene_settings.h"
 
@@ -110,25 +110,23 @@ int RunSettings(SettingsOptions options) {
   return kExitSuccess;
 }
 
-void Add(ProgramOptions& app, ProgramCommand& command) {
+}  // namespace
+
+void AddSettings(ProgramOptions& app, ProgramCommand& command) {
+  ProgramOptions settings =
+      app.AddCommand("settings", "Measure the scene settings of the published evaluation");
   const auto options = std::make_shared<SettingsOptions>();
-  app.AddOption("SCENARIO", options->scenario, "Scenario file; default: the demo")
+  settings.AddOption("SCENARIO", options->scenario, "Scenario file; default: the demo")
       .Check(NonEmpty());
-  app.AddOption("--turns", options->num_turns, "Turns that each setting takes")
+  settings.AddOption("--turns", options->num_turns, "Turns that each setting takes")
       .Check(Whole({1, 1'000'000}))
       .ShowDefault();
-  app.AddOption("--threads", options->num_threads, "0 = all cores")
+  settings.AddOption("--threads", options->num_threads, "0 = all cores")
       .Check(Whole({0, 1024}))
       .ShowDefault();
-  command = [options](const std::string&) { return RunSettings(*options); };
+  settings.WhenParsed([options, &command] {
+    command = [options](const std::string&) { return RunSettings(*options); };
+  });
 }
 
-}  // namespace
 }  // namespace railcast
-
-int main(int argc, char** argv) {
-  return railcast::ProgramMain(
-      {"railcast-settings", "Measures the scene settings of the published evaluation.", "",
-       railcast::Add},
-      argc, argv);
-}

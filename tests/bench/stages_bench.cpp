@@ -1,7 +1,7 @@
 // Measures what the stages of a frame of a sequence cost, beside the raw trace of the same rays:
 // time that the processor spent, on one thread, the median over the frames.
 //
-//   railcast-stages SCENARIO [--frames N] [--format FORMAT] [--out DIRECTORY]
+//   railcast-measure stages SCENARIO [--frames N] [--format FORMAT] [--out DIRECTORY]
 //
 // Each frame takes all stages in turn, and the raw trace before them.
 #include <cstdint>
@@ -17,9 +17,9 @@
 #include "core/io/run/object_survey.h"
 #include "core/io/write_file.h"
 #include "core/program/command_line.h"
-#include "core/program/program.h"
 #include "railcast/io/cloud_files.h"
 #include "railcast/scenario.h"
+#include "tests/bench/measurements.h"
 #include "tests/bench/scene_cost.h"
 
 namespace railcast {
@@ -98,25 +98,23 @@ int RunStages(const StagesOptions& options) {
   return kExitSuccess;
 }
 
-void Add(ProgramOptions& app, ProgramCommand& command) {
+}  // namespace
+
+void AddStages(ProgramOptions& app, ProgramCommand& command) {
+  ProgramOptions stages = app.AddCommand(
+      "stages", "Measure what the stages of a frame of a sequence cost, on one thread");
   const auto options = std::make_shared<StagesOptions>();
-  app.AddOption("SCENARIO", options->scenario, "Scenario file").Required().Check(NonEmpty());
-  app.AddOption("--frames", options->num_frames, "Number of frames")
+  stages.AddOption("SCENARIO", options->scenario, "Scenario file").Required().Check(NonEmpty());
+  stages.AddOption("--frames", options->num_frames, "Number of frames")
       .Check(Whole({1, 1'000'000}))
       .ShowDefault();
-  app.AddOption("--format", options->format, "File format of the frames")
+  stages.AddOption("--format", options->format, "File format of the frames")
       .Check(Named(FrameFormatNames()))
       .ShowDefault();
-  app.AddOption("--out", options->out, "Directory to write to").ShowDefault();
-  command = [options](const std::string&) { return RunStages(*options); };
+  stages.AddOption("--out", options->out, "Directory to write to").ShowDefault();
+  stages.WhenParsed([options, &command] {
+    command = [options](const std::string&) { return RunStages(*options); };
+  });
 }
 
-}  // namespace
 }  // namespace railcast
-
-int main(int argc, char** argv) {
-  return railcast::ProgramMain(
-      {"railcast-stages", "Measures what the stages of a frame of a sequence cost, on one thread.",
-       "", railcast::Add},
-      argc, argv);
-}

@@ -20,8 +20,8 @@ def added_options(program, words):
                 *([] if "--size" in words else ["--size", "160x100"])]
     if program == "railcast-c-bench":
         return ["2"]
-    if program in ("railcast-modules", "railcast-settings"):
-        return ["tiny.json", "--scans" if program == "railcast-modules" else "--turns", "2"]
+    if program == "railcast-measure":
+        return ["tiny.json", "--scans" if command == "modules" else "--turns", "2"]
     return {"stream": [] if "--duration" in words else ["--duration", str(MOST_S)],
             "receive": [] if "--frames" in words else ["--frames", "1", "--duration", "2"],
             "sequence": [] if "--frames" in words else ["--frames", "2"],
