@@ -65,6 +65,7 @@ check_tidy_all() {
   configure_tidy build/tidy_all -D CMAKE_UNITY_BUILD=ON -D CMAKE_UNITY_BUILD_BATCH_SIZE=16
   ninja -C build/tidy_all -t targets all | sed -n 's/^\(.*\(\.pb\.h\|\/version\.cpp\)\): .*/\1/p' |
     xargs ninja -C build/tidy_all --quiet
+  cp tests/.clang-tidy build/tidy_all/tests
   sed -n 's/^ *"file": "\(.*\)".*/\1/p' build/tidy_all/compile_commands.json |
     grep --extended-regexp --invert-match '^/usr/|_verify_interface_header_sets/|/shipped_files\.cpp$|\.pb\.cc$' | sort --unique |
     run_tidy build/tidy_all --checks=-bugprone-suspicious-include \

@@ -32,7 +32,7 @@ using testing::ContainsRegex;
 class EndlessSequence {
  public:
   explicit EndlessSequence(std::string out, bool has_nohup = false) : out_(std::move(out)) {
-    const std::string file = scenarios_folder + "minimal.json";
+    const std::string file = kScenariosFolder + "minimal.json";
     child_ = ::fork();
     if (child_ > 0) return;
     UseDefaultSignals();
@@ -92,7 +92,7 @@ TEST(RailcastGenerate, NamesTheFileThatIsLargerThanAllowed) {
   const TemporaryDirectory directory;
   const std::string out = (directory.path() / "run").string();
   const std::string generate = std::string(RAILCAST_GENERATE) + " ";
-  const std::string scenario = scenarios_folder + "minimal.json";
+  const std::string scenario = kScenariosFolder + "minimal.json";
   // 64 blocks of 512 bytes in every POSIX shell, which is enough for the text files beside the
   // frames.
   const auto limited = [&](const std::string& arguments) {

@@ -31,7 +31,7 @@ std::string CurveWithTraffic(const std::string& output, bool moves) {
   return R"({
     "version": 1, "fidelity": "geometry",
     "lidar": {"file": ")" +
-         scenarios_folder + R"(sensors/vir2rail.json",
+         kScenariosFolder + R"(sensors/vir2rail.json",
               "mount": {"position_m": [2, 0.5, 2.5], "yaw_deg": 10, "pitch_deg": 3}},
     "world": {
       "alignment": {"course": {"type": "elements", "elements": [
@@ -50,9 +50,9 @@ std::string CurveWithTraffic(const std::string& output, bool moves) {
     "output": )" +
          output + R"(,
     "materials": ")" +
-         scenarios_folder + R"(materials/railway.json",
+         kScenariosFolder + R"(materials/railway.json",
     "labels": ")" +
-         scenarios_folder + R"(labels.json"
+         kScenariosFolder + R"(labels.json"
   })";
 }
 

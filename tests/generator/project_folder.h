@@ -7,7 +7,7 @@
 
 namespace railcast {
 
-inline const std::string scenarios_folder = std::string(RAILCAST_SOURCE_DIR) + "/scenarios/";
+inline const std::string kScenariosFolder = std::string(RAILCAST_SOURCE_DIR) + "/scenarios/";
 
 /// A pyramid 2 m high, for a scenario's mesh file.
 inline constexpr const char* kPyramidObj =
@@ -34,8 +34,8 @@ inline std::filesystem::path MakeProject(const std::filesystem::path& folder) {
       "objects": [{"name": "rock", "type": "mesh", "file": "rock.obj", "s_m": 450, "d_m": 2}]
     },
     "vehicle": {"start_s_m": 400},
-    "materials": ")" + scenarios_folder + R"(materials/railway.json",
-    "labels": ")" + scenarios_folder + R"(labels.json"
+    "materials": ")" + kScenariosFolder + R"(materials/railway.json",
+    "labels": ")" + kScenariosFolder + R"(labels.json"
   })");
   return folder / "scenario.json";
 }

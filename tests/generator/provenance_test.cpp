@@ -70,7 +70,7 @@ TEST(Provenance, OfTheBestInstructionSetIsTheSameWhetherForcedOrNot) {
   const std::string best = IsaInUse("");
   ASSERT_THAT(IsaNames(), testing::Contains(best));
   const TemporaryDirectory directory;
-  const std::string command = "sequence " + scenarios_folder + "minimal.json --frames 2 --out " +
+  const std::string command = "sequence " + kScenariosFolder + "minimal.json --frames 2 --out " +
                               directory.path().string() + "/";
   ASSERT_EQ(Generate(command + "forced --isa " + best).status, 0);
   ASSERT_EQ(Generate(command + "left").status, 0);

@@ -33,7 +33,7 @@ TEST(RailcastGenerate, ExplainsItself) {
 TEST(RailcastGenerate, SaysWhichPointsAreInTheGauge) {
   const TemporaryDirectory directory;
   const std::string out = (directory.path() / "out").string();
-  ASSERT_THAT(Generate("sequence " + scenarios_folder + "brake_person.json --frames 2 --out " +
+  ASSERT_THAT(Generate("sequence " + kScenariosFolder + "brake_person.json --frames 2 --out " +
                        out + " --fields x,y,z,label,track_lateral_m,track_height_m,in_gauge"),
               ExitsWith(0));
   const auto frames = ReadAll(directory.path() / "out");
@@ -62,7 +62,7 @@ TEST(RailcastGenerate, ExitsWithTwoOnWrongUsage) {
 
 TEST(RailcastGenerate, FailsWhereItsOutputIsLost) {
   const TemporaryDirectory directory;
-  const std::string scenario = scenarios_folder + "minimal.json";
+  const std::string scenario = kScenariosFolder + "minimal.json";
   const std::string out = (directory.path() / "out").string();
   for (const std::string& command :
        {std::string("--help"), "check " + scenario, "trace " + scenario + " --firing 0",
@@ -84,7 +84,7 @@ TEST(RailcastGenerate, PrintsNothingRawThatComesFromOutside) {
   const std::string file = (directory.path() / "a\nb\x1b[2J.json").string();
   EXPECT_EQ(Generate("check '" + file + "'").said,
             (directory.path() / "a\\nb\\u001b[2J.json").string() + ": no such file\n");
-  const std::string scenario = scenarios_folder + "minimal.json";
+  const std::string scenario = kScenariosFolder + "minimal.json";
   const std::string out = (directory.path() / "o\nt\x1b[2J").string();
   EXPECT_THAT(Generate("sequence " + scenario + " --frames 1 --out '" + out + "'"),
               ExitsWith(0, AllOf(HasSubstr("/o\\nt\\u001b[2J"), testing::Not(HasSubstr("\x1b")))));
@@ -106,20 +106,20 @@ TEST(RailcastGenerate, RecordsWhatFidelityAutoChose) {
 }
 
 TEST(RailcastGenerate, ReplaysOneFiringEffectByEffect) {
-  const Ended run = Generate("trace " + scenarios_folder + "minimal.json --frame 3 --firing 0");
+  const Ended run = Generate("trace " + kScenariosFolder + "minimal.json --frame 3 --firing 0");
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.said.find("frame 3 firing 0 at 0 ns, slot 0\n"), 0U);
   for (const char* effect : {"\nhit ", "\nthreshold ", "\nnoise "}) {
     EXPECT_NE(run.said.find(effect), std::string::npos) << effect;
   }
-  EXPECT_THAT(Generate("trace " + scenarios_folder + "minimal.json --firing 28800"),
+  EXPECT_THAT(Generate("trace " + kScenariosFolder + "minimal.json --firing 28800"),
               ExitsWith(1, "--firing: must be < 28800, the firings of a frame (got 28800)\n"));
 }
 
 TEST(RailcastGenerate, ListsTheEchoesOfAFiringThatHasMoreThanOne) {
   const TemporaryDirectory directory;
   WriteFileWhole(directory.path() / "fog.json",
-                 R"({"version": 1, "fidelity": "surface", "file": ")" + scenarios_folder +
+                 R"({"version": 1, "fidelity": "surface", "file": ")" + kScenariosFolder +
                      R"(minimal.json", "weather": {"visibility_m": 50}})");
   EXPECT_THAT(
       Generate("trace " + (directory.path() / "fog.json").string() + " --frame 3 --firing 1"),
@@ -132,21 +132,21 @@ TEST(RailcastGenerate, ExitsWithOneAndOneLineOnBadInput) {
   EXPECT_THAT(Generate("sequence /no/such.json" + out),
               ExitsWith(1, "/no/such.json: no such file\n"));
   EXPECT_THAT(
-      Generate("sequence " + scenarios_folder + "minimal.json --format kitti --fields x,y,z" + out),
+      Generate("sequence " + kScenariosFolder + "minimal.json --format kitti --fields x,y,z" + out),
       ExitsWith(
           1,
           "--fields: KITTI's are fixed, so it must be left out with --format kitti (got x,y,z)\n"));
-  EXPECT_THAT(Generate("world " + scenarios_folder + "minimal.json --out a.stl"),
+  EXPECT_THAT(Generate("world " + kScenariosFolder + "minimal.json --out a.stl"),
               ExitsWith(1, "--out: must end in .ply, .glb or .obj (got a.stl)\n"));
   const Ended stretch =
-      Generate("world " + scenarios_folder + "minimal.json --from-s 5 --to-s 1 --out a.ply");
+      Generate("world " + kScenariosFolder + "minimal.json --from-s 5 --to-s 1 --out a.ply");
   EXPECT_EQ(stretch.said, "--from-s, --to-s: must be 0 <= from < to <= 1000 (got 5, 1)\n");
 }
 
 TEST(RailcastGenerate, WritesTheSummaryOfASequenceBesideItsDirectory) {
   const TemporaryDirectory directory;
   const std::filesystem::path out = directory.path() / "out";
-  const std::string sequence = "sequence " + scenarios_folder +
+  const std::string sequence = "sequence " + kScenariosFolder +
                                "minimal.json --format objects --frames 2 --out " + out.string() +
                                " --summary ";
   for (const std::string wrong : {"out/summary.json", "out/more/../summary.json", "out"}) {
@@ -165,22 +165,22 @@ TEST(RailcastGenerate, WritesTheSummaryOfASequenceBesideItsDirectory) {
 }
 
 TEST(RailcastGenerate, RefusesAMeshItCouldNotWriteBeforeItIsBuilt) {
-  const Ended half = Generate("world " + scenarios_folder + "minimal.json --from-s 5 --out a.ply");
+  const Ended half = Generate("world " + kScenariosFolder + "minimal.json --from-s 5 --out a.ply");
   EXPECT_EQ(half.said,
             "--from-s, --to-s: must be given both or not at all (got only --from-s 5)\n");
   // No chunks are mentioned, because none was built.
-  EXPECT_THAT(Generate("world " + scenarios_folder + "minimal.json --out /no/such/a.ply"),
+  EXPECT_THAT(Generate("world " + kScenariosFolder + "minimal.json --out /no/such/a.ply"),
               ExitsWith(1, "/no/such/a.ply: no such file or directory\n"));
   const TemporaryDirectory directory;
   std::filesystem::create_directory(directory.path() / "a.ply");
   const std::string folder = (directory.path() / "a.ply").string();
-  const Ended taken = Generate("world " + scenarios_folder + "minimal.json --out " + folder);
+  const Ended taken = Generate("world " + kScenariosFolder + "minimal.json --out " + folder);
   EXPECT_EQ(taken.said, folder + ": must be a regular file (got a directory)\n");
 }
 
 TEST(RailcastGenerate, GivesTheSameBytesForAnyNumberOfThreads) {
   const TemporaryDirectory directory;
-  const std::string command = "sequence " + scenarios_folder + "minimal.json --frames 2 --out " +
+  const std::string command = "sequence " + kScenariosFolder + "minimal.json --frames 2 --out " +
                               directory.path().string() + "/";
   for (const char* threads : {"1", "2", "8"}) {
     EXPECT_THAT(Generate(command + threads + " --threads " + threads),
@@ -296,7 +296,7 @@ void MakeRunIntoACrate(const std::filesystem::path& file, const std::string& key
 }
 
 TEST(RailcastGenerate, SaysWhenTheBuffersOfTheCouplingScenarioTouch) {
-  EXPECT_THAT(Generate("check " + scenarios_folder + "coupling.json"),
+  EXPECT_THAT(Generate("check " + kScenariosFolder + "coupling.json"),
               ExitsWith(0, testing::EndsWith(R"(contacts  in frames 0 to 5999:
           "wagon" touches "coupled_wagon" in frames 0 to 5999: 0.000 m apart at frame 0
           "wagon" touches "ego" in frames 64 to 5999: 0.000 m apart at frame 67
@@ -345,7 +345,7 @@ TEST(RailcastGenerate, RunsTheVehicleIntoAnObjectIfToldTo) {
 
 TEST(RailcastGenerate, StartsAtAnyFrame) {
   const TemporaryDirectory directory;
-  const std::string command = "sequence " + scenarios_folder + "st_gallen_approach.json --out " +
+  const std::string command = "sequence " + kScenariosFolder + "st_gallen_approach.json --out " +
                               directory.path().string() + "/";
   ASSERT_EQ(Generate(command + "all --frames 3").status, 0);
   ASSERT_EQ(Generate(command + "last --frames 1 --start-frame 2").status, 0);
@@ -354,7 +354,7 @@ TEST(RailcastGenerate, StartsAtAnyFrame) {
 }
 
 TEST(RailcastGenerate, ChecksAScenario) {
-  const Ended run = Generate("check " + scenarios_folder + "st_gallen_approach.json");
+  const Ended run = Generate("check " + kScenariosFolder + "st_gallen_approach.json");
   EXPECT_EQ(run.status, 0);
   for (const char* text :
        {"28800 firings a frame (120 rows x 240 columns)", "at most 288000 points/s",
@@ -364,16 +364,16 @@ TEST(RailcastGenerate, ChecksAScenario) {
   }
   EXPECT_EQ(run.said.find("curvature at s "), std::string::npos);
   // On the same line, without what takes long to check.
-  const Ended verbose = Generate("check -v " + scenarios_folder + "forest_rain.json");
+  const Ended verbose = Generate("check -v " + kScenariosFolder + "forest_rain.json");
   EXPECT_NE(verbose.said.find("curvature at s "), std::string::npos);
 }
 
 TEST(RailcastGenerate, PrintsAResolvedScenarioThatReadsBackTheSame) {
   const TemporaryDirectory directory;
   const std::string file = (directory.path() / "resolved.json").string();
-  const Ended first = Generate("check " + scenarios_folder + "minimal.json --resolved -");
+  const Ended first = Generate("check " + kScenariosFolder + "minimal.json --resolved -");
   EXPECT_EQ(first.status, 0);
-  EXPECT_EQ(Generate("check " + scenarios_folder + "minimal.json --resolved " + file).status, 0);
+  EXPECT_EQ(Generate("check " + kScenariosFolder + "minimal.json --resolved " + file).status, 0);
   EXPECT_EQ(ReadFileWhole(file), first.said);
   EXPECT_EQ(Generate("check " + file + " --resolved -").said, first.said);
 }
@@ -382,7 +382,7 @@ TEST(RailcastGenerate, WritesTheSceneAsAMesh) {
   const TemporaryDirectory directory;
   const std::string file = (directory.path() / "world.ply").string();
   const Ended run =
-      Generate("world " + scenarios_folder + "minimal.json --from-s 400 --to-s 450 --out " + file);
+      Generate("world " + kScenariosFolder + "minimal.json --from-s 400 --to-s 450 --out " + file);
   EXPECT_EQ(run.status, 0);
   EXPECT_NE(run.said.find(" triangles of 1 chunks in " + file), std::string::npos);
   const auto megabytes = static_cast<double>(std::filesystem::file_size(file)) * 1e-6;

@@ -42,6 +42,7 @@ std::string LasOf(int minor_version, int format, const std::string& record = {})
   return bytes;
 }
 
+// NOLINTNEXTLINE(readability-function-size): a list of changes
 void TryLas(Mutants& mutants, int minor_version, int format) {
   const std::string& good = mutants.good();
   const auto change = [&](const std::string& what, std::size_t place, auto number) {

@@ -66,6 +66,7 @@ std::string PoseText(bool is_csv, const PoseChange& change = {}) {
   return text;
 }
 
+// NOLINTNEXTLINE(readability-function-size): a list of changes
 void TryPoses(Mutants& mutants, bool is_csv) {
   const auto with = [&](const std::string& what, const std::string& detail,
                         const PoseChange& change) {

@@ -2,6 +2,7 @@
 
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <span>
@@ -59,7 +60,7 @@ class PlainEmbree {
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                              sizeof(mesh.vertices[0]), mesh.vertices.size());
-    std::memcpy(vertices, mesh.vertices.data(), mesh.vertices.size() * sizeof(mesh.vertices[0]));
+    std::ranges::copy(mesh.vertices, static_cast<Eigen::Vector3f*>(vertices));
     void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                               sizeof(mesh.triangles[0]), mesh.triangles.size());
     std::memcpy(triangles, mesh.triangles.data(),

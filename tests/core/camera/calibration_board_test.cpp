@@ -119,7 +119,7 @@ double WorstCorner_px(const CameraSpec& spec) {
   return worst_px;
 }
 
-constexpr CameraSpec kPinhole{.width_px = 1280, .height_px = 960, .horizontal_fov_deg = 60};
+const CameraSpec kPinhole{.width_px = 1280, .height_px = 960, .horizontal_fov_deg = 60};
 
 TEST(CalibrationBoard, HasItsCornersWithinATenthOfAPixel) {
   EXPECT_LT(WorstCorner_px(kPinhole), 0.1);

@@ -15,7 +15,7 @@
 namespace railcast {
 namespace {
 
-constexpr CameraSpec kSmall{.width_px = 90, .height_px = 50, .horizontal_fov_deg = 90};
+const CameraSpec kSmall{.width_px = 90, .height_px = 50, .horizontal_fov_deg = 90};
 constexpr std::uint32_t kBoxLabel = 7;
 
 std::unique_ptr<Simulator> SimulatorOf(std::shared_ptr<const World> world, int num_threads = 2) {

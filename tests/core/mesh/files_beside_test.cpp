@@ -85,7 +85,7 @@ TEST_F(FilesBeside, MustBeThere) {
 // The buffer of a glTF that comes as bytes alone is no file of the folder that the program is in.
 TEST_F(FilesBeside, AreNotReadWithBytesAlone) {
   if (!HasAssimp()) GTEST_SKIP() << "built without assimp";
-  const fs::path buffer = Write("rock.bin", triangle_);
+  Write("rock.bin", triangle_);
   const fs::path before = fs::current_path();
   fs::current_path(folder_.path());
   const std::string message =

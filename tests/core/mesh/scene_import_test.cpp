@@ -34,8 +34,8 @@ class SceneImport : public testing::Test {
 };
 
 // The triangle lies in y up, so that it stands.
-const Box standing{Vector3(0, 0, 0), Vector3(1, 0, 1)};
-const Box lying{Vector3(0, 0, 0), Vector3(1, 1, 0)};
+const Box kStanding{Vector3(0, 0, 0), Vector3(1, 0, 1)};
+const Box kLying{Vector3(0, 0, 0), Vector3(1, 1, 0)};
 
 std::string Number(std::size_t number) {
   const auto word = static_cast<std::uint32_t>(number);
@@ -65,7 +65,7 @@ std::string BinaryGltfOfVersion1(std::size_t num_blanks) {
 TEST_F(SceneImport, ReadsBinaryGltfOfVersion1) {
   const ImportedMesh mesh = ParseMesh(BinaryGltfOfVersion1(0), "a.glb");
   EXPECT_EQ(mesh.num_triangles(), 1U);
-  EXPECT_TRUE(BoxOf(mesh).isApprox(standing, 1e-6));
+  EXPECT_TRUE(BoxOf(mesh).isApprox(kStanding, 1e-6));
 }
 
 // Its buffer begins elsewhere than assimp looks for it.
@@ -140,7 +140,7 @@ TEST_F(SceneImport, ScalesAndTurns3dsAsTold) {
   EXPECT_TRUE(turned.isApprox(Box(Vector3(10, -30, 20), Vector3(11, -30, 22)), 1e-6));
 }
 
-const std::string triangle_dae = TriangleDae("<node><instance_geometry url=\"#g\"/></node>");
+const std::string kTriangleDae = TriangleDae("<node><instance_geometry url=\"#g\"/></node>");
 
 std::string Replaced(std::string text, const std::string& part, const std::string& by) {
   EXPECT_NE(text.find(part), std::string::npos) << part;
@@ -148,7 +148,7 @@ std::string Replaced(std::string text, const std::string& part, const std::strin
 }
 
 TEST_F(SceneImport, ReadsDaeWithBlanksRoundItsValues) {
-  EXPECT_TRUE(BoxOf(ParseMesh(triangle_dae, "a.dae")).isApprox(lying, 1e-6));
+  EXPECT_TRUE(BoxOf(ParseMesh(kTriangleDae, "a.dae")).isApprox(kLying, 1e-6));
   for (const auto& [part, by] : {std::pair{">Z_UP<", ">\n  Z_UP\n<"},
                                  {"meter=\"1\"", "meter=\" 1 \""},
                                  {">0 0 0 1 0 0 0 1 0<", ">\t0 0 0 1 0 0 0 1 0\r\n<"},
@@ -156,15 +156,15 @@ TEST_F(SceneImport, ReadsDaeWithBlanksRoundItsValues) {
                                  {"source=\"#p\"", "source=\" #p \""},
                                  {"semantic=\"VERTEX\"", "semantic=' VERTEX '"},
                                  {"count=\"9\"", "count=\" 9 \""}}) {
-    const ImportedMesh mesh = ParseMesh(Replaced(triangle_dae, part, by), "a.dae");
-    EXPECT_TRUE(BoxOf(mesh).isApprox(lying, 1e-6)) << by;
+    const ImportedMesh mesh = ParseMesh(Replaced(kTriangleDae, part, by), "a.dae");
+    EXPECT_TRUE(BoxOf(mesh).isApprox(kLying, 1e-6)) << by;
   }
-  const std::string centimetres = Replaced(triangle_dae, "meter=\"1\"", "meter=\" 0.01 \"");
+  const std::string centimetres = Replaced(kTriangleDae, "meter=\"1\"", "meter=\" 0.01 \"");
   EXPECT_NEAR(BoxOf(ParseMesh(centimetres, "a.dae")).max().x(), 0.01, 1e-8);
 }
 
 TEST_F(SceneImport, LeavesCommentsOfDaeAlone) {
-  const std::string text = Replaced(triangle_dae, "<library_geometries>",
+  const std::string text = Replaced(kTriangleDae, "<library_geometries>",
                                     "<!-- it's > \" here --><library_geometries><!-- -->");
   EXPECT_EQ(ParseMesh(text, "a.dae").num_triangles(), 1U);
 }
@@ -180,10 +180,10 @@ std::string AsUtf16(std::string_view ascii, bool is_big) {
 }
 
 TEST_F(SceneImport, ReadsDaeInUtf16) {
-  const std::string text = Replaced(triangle_dae, "utf-8", "utf-16");
+  const std::string text = Replaced(kTriangleDae, "utf-8", "utf-16");
   for (const std::string& bytes : {"\xFF\xFE" + AsUtf16(text, false),
                                    "\xFE\xFF" + AsUtf16(text, true), AsUtf16(text, false)}) {
-    EXPECT_TRUE(BoxOf(ParseMesh(bytes, "a.dae")).isApprox(lying, 1e-6));
+    EXPECT_TRUE(BoxOf(ParseMesh(bytes, "a.dae")).isApprox(kLying, 1e-6));
   }
 }
 
@@ -397,9 +397,9 @@ TEST_F(SceneImport, MovesVerticesOfGltfByTheWeightsOfTheNodeOrElseOfTheMesh) {
     return BoxOf(mesh);
   };
   const std::string plain = "[{\"mesh\": 0}, {}]";
-  EXPECT_TRUE(box(plain, "[0, 0]").isApprox(standing, 1e-6));
+  EXPECT_TRUE(box(plain, "[0, 0]").isApprox(kStanding, 1e-6));
   EXPECT_TRUE(box(plain, "[0.5, 0.25]").isApprox(Box(Vector3(0, -4, 0), Vector3(1, -4, 2)), 1e-6));
-  EXPECT_TRUE(box(R"([{"mesh": 0, "weights": [0, 0]}, {}])", "[1, 1]").isApprox(standing, 1e-6));
+  EXPECT_TRUE(box(R"([{"mesh": 0, "weights": [0, 0]}, {}])", "[1, 1]").isApprox(kStanding, 1e-6));
   EXPECT_TRUE(box(R"([{"mesh": 0}, {"mesh": 0, "weights": [1, 0]}])", "[0, 1]")
                   .isApprox(Box(Vector3(0, -8, 0), Vector3(1, 0, 5)), 1e-6));
   const auto message = [](const std::string& weights) {

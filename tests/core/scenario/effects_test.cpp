@@ -17,7 +17,7 @@ std::set<std::string> NamesIn(const EffectSet& effects) {
   return {names.begin(), names.end()};
 }
 
-const std::set<std::string> surface_effects{
+const std::set<std::string> kSurfaceEffects{
     "channel_bias",      "clutter",        "detection",   "detection_probability",
     "extinction",        "fog_echo",       "range_noise", "pointing_jitter",
     "pulse_stretch",     "sensor_dropout", "sunlight",    "surface_response",
@@ -27,7 +27,7 @@ const std::set<std::string> surface_effects{
     "channel_gain"};
 
 std::set<std::string> SurfaceAnd(const std::set<std::string>& more) {
-  std::set<std::string> names = surface_effects;
+  std::set<std::string> names = kSurfaceEffects;
   names.insert(more.begin(), more.end());
   return names;
 }
@@ -52,7 +52,7 @@ TEST(EffectsOfRung, AreThePublishedOnesInPlausibility) {
 }
 
 TEST(EffectsOfRung, ArePhysicalFromSurfaceOn) {
-  EXPECT_EQ(NamesIn(EffectsOfRung(Fidelity::kSurface)), surface_effects);
+  EXPECT_EQ(NamesIn(EffectsOfRung(Fidelity::kSurface)), kSurfaceEffects);
   EXPECT_EQ(NamesIn(EffectsOfRung(Fidelity::kFootprint)),
             SurfaceAnd({"footprint", "thin_conductors", "edge_loss"}));
   EXPECT_EQ(NamesIn(EffectsOfRung(Fidelity::kReference)),

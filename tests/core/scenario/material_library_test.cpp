@@ -13,9 +13,9 @@
 namespace railcast {
 namespace {
 
-const std::filesystem::path spectra_folder =
+const std::filesystem::path kSpectraFolder =
     std::filesystem::path(RAILCAST_SHARED_DATA_DIR) / "reflectance_spectra_ucsb";
-const std::filesystem::path constants_folder =
+const std::filesystem::path kConstantsFolder =
     std::filesystem::path(RAILCAST_SHARED_DATA_DIR) / "optical_constants_nk";
 
 std::vector<Material> Library() {
@@ -56,10 +56,10 @@ struct Source {
 
 // The reflectances of all spectra of one kind.
 std::vector<double> Measured(const Source& source, double wavelength_nm) {
-  const std::string bytes = TextOf(spectra_folder / (source.file + ".sli"));
+  const std::string bytes = TextOf(kSpectraFolder / (source.file + ".sli"));
   std::vector<float> spectra(bytes.size() / sizeof(float));
   std::memcpy(spectra.data(), bytes.data(), spectra.size() * sizeof(float));
-  std::istringstream table(TextOf(spectra_folder / (source.file + ".csv")));
+  std::istringstream table(TextOf(kSpectraFolder / (source.file + ".csv")));
   std::vector<double> reflectances;
   std::string line;
   std::getline(table, line);
@@ -94,7 +94,7 @@ void PrintTo(const MeasuredMaterial& measured, std::ostream* out) {
 class LibraryMaterial : public testing::TestWithParam<MeasuredMaterial> {};
 
 TEST_P(LibraryMaterial, LiesWithinTheMiddleFourFifthsOfWhatWasMeasured) {
-  if (!exists(spectra_folder)) GTEST_SKIP() << spectra_folder << " is not there";
+  if (!exists(kSpectraFolder)) GTEST_SKIP() << kSpectraFolder << " is not there";
   for (const int wavelength_nm : {905, 1550}) {
     std::vector<double> measured;
     for (const Source& source : GetParam().sources) {
@@ -108,24 +108,26 @@ TEST_P(LibraryMaterial, LiesWithinTheMiddleFourFifthsOfWhatWasMeasured) {
   }
 }
 
-const std::string urban = "urban-santa-barbara-10nm";
-const std::string bare = "bare-santa-barbara-10nm";
-const std::string plants = "npv-santa-barbara-10nm";
+const std::string kUrban = "urban-santa-barbara-10nm";
+const std::string kBare = "bare-santa-barbara-10nm";
+const std::string kPlants = "npv-santa-barbara-10nm";
 
 INSTANTIATE_TEST_SUITE_P(
     Spectra,
     LibraryMaterial,
     testing::Values(
-        MeasuredMaterial{"concrete", {{urban, "bridge"}, {urban, "driveway"}, {urban, "sidewalk"}}},
-        MeasuredMaterial{"asphalt", {{urban, "asphalt"}, {urban, "road"}, {urban, "parking_lot"}}},
-        MeasuredMaterial{"ballast", {{urban, "gravel"}, {bare, "gravel"}}},
-        MeasuredMaterial{"soil", {{bare, "soil"}, {bare, "dirt"}}},
-        MeasuredMaterial{"roof_tile", {{urban, "tile"}}},
-        MeasuredMaterial{"wood", {{urban, "wood_shingle"}, {plants, "wood"}}},
-        MeasuredMaterial{"bark", {{plants, "bark"}}},
-        MeasuredMaterial{"galvanised_steel", {{urban, "metal"}}, true},
-        MeasuredMaterial{"wagon_paint", {{urban, "paint"}}},
-        MeasuredMaterial{"grey_paint", {{urban, "paint"}}}),
+        MeasuredMaterial{"concrete",
+                         {{kUrban, "bridge"}, {kUrban, "driveway"}, {kUrban, "sidewalk"}}},
+        MeasuredMaterial{"asphalt",
+                         {{kUrban, "asphalt"}, {kUrban, "road"}, {kUrban, "parking_lot"}}},
+        MeasuredMaterial{"ballast", {{kUrban, "gravel"}, {kBare, "gravel"}}},
+        MeasuredMaterial{"soil", {{kBare, "soil"}, {kBare, "dirt"}}},
+        MeasuredMaterial{"roof_tile", {{kUrban, "tile"}}},
+        MeasuredMaterial{"wood", {{kUrban, "wood_shingle"}, {kPlants, "wood"}}},
+        MeasuredMaterial{"bark", {{kPlants, "bark"}}},
+        MeasuredMaterial{"galvanised_steel", {{kUrban, "metal"}}, true},
+        MeasuredMaterial{"wagon_paint", {{kUrban, "paint"}}},
+        MeasuredMaterial{"grey_paint", {{kUrban, "paint"}}}),
     [](const auto& test) { return test.param.name; });
 
 // The luminance of a spectrum in light of equal energy. The eye's photopic sensitivity is taken to
@@ -144,9 +146,9 @@ double LuminanceOfSpectrum(const float* spectrum) {
 
 // What PaintOfLuminance() promises of its law, for roofs, roads, walls and paint.
 TEST(PaintsOfColours, AreNearerToMeasuredSurfacesThanGreyPaint) {
-  if (!exists(spectra_folder)) GTEST_SKIP() << spectra_folder << " is not there";
+  if (!exists(kSpectraFolder)) GTEST_SKIP() << kSpectraFolder << " is not there";
   const MaterialLibrary library(Library());
-  const std::string bytes = TextOf(spectra_folder / (urban + ".sli"));
+  const std::string bytes = TextOf(kSpectraFolder / (kUrban + ".sli"));
   std::vector<float> spectra(bytes.size() / sizeof(float));
   std::memcpy(spectra.data(), bytes.data(), spectra.size() * sizeof(float));
   std::vector<double> ratios;
@@ -181,7 +183,7 @@ double Fresnel(double n, double k) {
 }
 
 double FresnelOfTable(const std::string& file, double wavelength_nm) {
-  std::istringstream lines(TextOf(constants_folder / file));
+  std::istringstream lines(TextOf(kConstantsFolder / file));
   std::optional<std::array<double, 3>> before;
   std::string line;
   while (std::getline(lines, line)) {
@@ -203,7 +205,7 @@ double FresnelOfTable(const std::string& file, double wavelength_nm) {
 // Formula 5 of the database: n = c0 + c1 L^c2 + c3 L^c4, L in micrometres. Absorption in glass is
 // neglected.
 double FresnelOfFormula(const std::string& file, double wavelength_nm) {
-  const std::string text = TextOf(constants_folder / file);
+  const std::string text = TextOf(kConstantsFolder / file);
   const std::string key = "coefficients:";
   const std::size_t place = text.find(key);
   EXPECT_NE(text.find("type: formula 5"), std::string::npos) << file;
@@ -217,7 +219,7 @@ double FresnelOfFormula(const std::string& file, double wavelength_nm) {
 }
 
 TEST(MaterialLibrary, HasTheLobeOfIronOnTheRailHead) {
-  if (!exists(constants_folder)) GTEST_SKIP() << constants_folder << " is not there";
+  if (!exists(kConstantsFolder)) GTEST_SKIP() << kConstantsFolder << " is not there";
   for (const int wavelength_nm : {905, 1550}) {
     std::vector<double> iron;
     for (const char* author : {"Johnson", "Ordal", "Querry"}) {
@@ -230,7 +232,7 @@ TEST(MaterialLibrary, HasTheLobeOfIronOnTheRailHead) {
 }
 
 TEST(MaterialLibrary, HasTheLobesOfTwoFacesOfGlassAndOfAFilmOfWater) {
-  if (!exists(constants_folder)) GTEST_SKIP() << constants_folder << " is not there";
+  if (!exists(kConstantsFolder)) GTEST_SKIP() << kConstantsFolder << " is not there";
   constexpr double kRounding = 0.005;  // The library gives two decimals.
   for (const int wavelength_nm : {905, 1550}) {
     const double face =

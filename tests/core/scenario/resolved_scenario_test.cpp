@@ -35,6 +35,7 @@ INSTANTIATE_TEST_SUITE_P(Scenarios,
 
 // A scenario in which every field differs from its default, so that the test notices a field that
 // is not written.
+// NOLINTNEXTLINE(readability-function-size): a value a line
 ScenarioSpec UnusualScenario(const std::string& mesh_file) {
   ScenarioSpec spec;
   spec.seed = 0xFFFF'FFFF'FFFF'FFFFULL;

@@ -22,20 +22,20 @@ class VehicleClearance : public testing::Test {
   }
   // Returns the error for frames 0 to `last`, at 10 frames/s.
   [[nodiscard]] std::string Message(std::uint32_t last) const {
-    const auto world = MakeWorld(scenario);
-    const ScanPattern pattern = BuildScanPattern(scenario.lidar.scan);
-    return MessageOf([&] { CheckVehicleIsClear(scenario, *world, pattern, 0, last); });
+    const auto world = MakeWorld(scenario_);
+    const ScanPattern pattern = BuildScanPattern(scenario_.lidar.scan);
+    return MessageOf([&] { CheckVehicleIsClear(scenario_, *world, pattern, 0, last); });
   }
-  void StandWithFrontAt(double s_m) { scenario.vehicle.start_s_m = s_m - 2.0; }
+  void StandWithFrontAt(double s_m) { scenario_.vehicle.start_s_m = s_m - 2.0; }
   void RunWithFrontFrom(double s_m, double speed_mps) {
     StandWithFrontAt(s_m);
-    scenario.vehicle.motion = {{{.time_s = 0.0, .s_m = {}, .speed_mps = speed_mps}}, false};
+    scenario_.vehicle.motion = {{{.time_s = 0.0, .s_m = {}, .speed_mps = speed_mps}}, false};
   }
 
-  ScenarioSpec scenario = Shipped();
-  const std::string fault = (ScenariosDir() / "brake_wagon.json").string() +
-                            ": /vehicle: must not be inside an object unless may_overlap is true "
-                            "(got ";
+  ScenarioSpec scenario_ = Shipped();
+  const std::string fault_ = (ScenariosDir() / "brake_wagon.json").string() +
+                             ": /vehicle: must not be inside an object unless may_overlap is true "
+                             "(got ";
   // Where the wagon's buffers end.
   static constexpr double kBuffers_m = 600.0 - 7.02;
 };
@@ -49,39 +49,39 @@ TEST_F(VehicleClearance, LetsBuffersTouch) {
 
 TEST_F(VehicleClearance, NamesFrameObjectAndDepth) {
   StandWithFrontAt(kBuffers_m + 0.3);
-  EXPECT_EQ(Message(0), fault + "0.30 m inside \"wagon\" at frame 0 (0 s))");
+  EXPECT_EQ(Message(0), fault_ + "0.30 m inside \"wagon\" at frame 0 (0 s))");
   // Nothing moves, so that later frames need not be looked at.
   EXPECT_EQ(Message(std::numeric_limits<std::uint32_t>::max() / 2),
-            fault + "0.30 m inside \"wagon\" at frame 0 (0 s))");
+            fault_ + "0.30 m inside \"wagon\" at frame 0 (0 s))");
 }
 
 TEST_F(VehicleClearance, FindsTheFrameInWhichTheVehicleRunsIntoAnObject) {
   // Frame 10 is 1 cm short of the buffers, frame 11 is 9 cm in.
   RunWithFrontFrom(kBuffers_m - 1.01, 1.0);
   EXPECT_EQ(Message(10), "no error");
-  EXPECT_EQ(Message(11), fault + "0.09 m inside \"wagon\" at frame 11 (1.1 s))");
-  EXPECT_EQ(Message(200), fault + "0.09 m inside \"wagon\" at frame 11 (1.1 s))");
+  EXPECT_EQ(Message(11), fault_ + "0.09 m inside \"wagon\" at frame 11 (1.1 s))");
+  EXPECT_EQ(Message(200), fault_ + "0.09 m inside \"wagon\" at frame 11 (1.1 s))");
 }
 
 TEST_F(VehicleClearance, ListsEveryObjectOnce) {
   ObjectSpec crate = ObjectAt("crate", ObjectType::kBox, kBuffers_m - 3.5);
   crate.h_m = 1.0;
   crate.size_m = {1.0, 1.0, 1.0};
-  scenario.world.objects.push_back(crate);
+  scenario_.world.objects.push_back(crate);
   RunWithFrontFrom(kBuffers_m - 5.0, 1.0);
   // The crate begins 1 m ahead.
-  EXPECT_EQ(Message(60), fault + "0.10 m inside \"crate\" at frame 11 (1.1 s))\n" + fault +
+  EXPECT_EQ(Message(60), fault_ + "0.10 m inside \"crate\" at frame 11 (1.1 s))\n" + fault_ +
                              "0.10 m inside \"wagon\" at frame 51 (5.1 s))");
 }
 
 TEST_F(VehicleClearance, IsNotAskedForWhereTheScenarioAllowsOverlaps) {
-  scenario.vehicle.may_overlap = true;
+  scenario_.vehicle.may_overlap = true;
   StandWithFrontAt(kBuffers_m + 5.0);
   EXPECT_EQ(Message(10), "no error");
 }
 
 TEST_F(VehicleClearance, HoldsForNothingWithoutABody) {
-  scenario.vehicle.ego_boxes_m.clear();
+  scenario_.vehicle.ego_boxes_m.clear();
   StandWithFrontAt(kBuffers_m + 5.0);
   EXPECT_EQ(Message(10), "no error");
 }

@@ -28,7 +28,7 @@ ConvexBody BoxOfSize(const Vector3& half_size_m) {
   return BodyOf(MakeBox({-half_size_m, half_size_m}));
 }
 
-const ConvexBody cube = BoxOfSize(Vector3::Constant(0.5));
+const ConvexBody kCube = BoxOfSize(Vector3::Constant(0.5));
 
 Transform At(const Vector3& place, double yaw_rad = 0.0, double pitch_rad = 0.0) {
   return MakeTransform(RotationFromYawPitchRoll(yaw_rad, pitch_rad, 0.0), place);
@@ -53,24 +53,24 @@ void ExpectDepth(double expected_m,
 }
 
 TEST(ConvexBody, MeasuresTheGapBetweenFacesEdgesAndCorners) {
-  ExpectGap(0.25, cube, At({1.25, 0.3, -0.2}), cube);
+  ExpectGap(0.25, kCube, At({1.25, 0.3, -0.2}), kCube);
   // Edge against edge, and corner against corner.
-  ExpectGap(std::hypot(0.3, 0.4), cube, At({1.3, 1.4, 0.1}), cube);
-  ExpectGap(std::sqrt(3.0), cube, At({2.0, 2.0, 2.0}), cube);
+  ExpectGap(std::hypot(0.3, 0.4), kCube, At({1.3, 1.4, 0.1}), kCube);
+  ExpectGap(std::sqrt(3.0), kCube, At({2.0, 2.0, 2.0}), kCube);
 }
 
 TEST(ConvexBody, MeasuresTheGapOfARotatedBox) {
-  // On its edge, the cube reaches sqrt(1/2) towards the other one.
+  // On its edge, the kCube reaches sqrt(1/2) towards the other one.
   constexpr double kEighth_rad = std::numbers::pi / 4.0;
-  ExpectGap(2.0 - 0.5 - std::sqrt(0.5), cube, At({2.0, 0.1, 0.0}, kEighth_rad), cube);
+  ExpectGap(2.0 - 0.5 - std::sqrt(0.5), kCube, At({2.0, 0.1, 0.0}, kEighth_rad), kCube);
   // Then on its corner: the plane through three neighbours of that corner is normal to the
   // diagonal, whose half is sqrt(3) / 2.
   const double tilt_rad = std::atan(std::sqrt(0.5));
-  ExpectGap(2.0 - 0.5 - std::sqrt(0.75), cube,
+  ExpectGap(2.0 - 0.5 - std::sqrt(0.75), kCube,
             At({2.0, 0.1, 0.0}, 0.0, 0.0) *
                 Transform(Eigen::AngleAxisd(tilt_rad, Vector3::UnitY())) *
                 Transform(Eigen::AngleAxisd(kEighth_rad, Vector3::UnitZ())),
-            cube);
+            kCube);
 }
 
 TEST(ConvexBody, MeasuresTheGapOfCrossedBars) {
@@ -82,9 +82,9 @@ TEST(ConvexBody, MeasuresTheGapOfTrianglesToABox) {
   // A flat body: its nearest point lies within the triangle, on its edge, at its corner.
   const ConvexBody triangle =
       MakeConvexBody({{-3.0, -3.0, 0.0}, {3.0, -3.0, 0.0}, {0.0, 3.0, 0.0}});
-  ExpectGap(0.2, cube, At({0.0, 0.0, 0.7}), triangle);
-  ExpectGap(0.7, cube, At({0.2, 4.2, 0.0}), triangle);
-  ExpectGap(std::hypot(0.3, 0.4), cube, At({0.0, -3.8, 0.9}), triangle);
+  ExpectGap(0.2, kCube, At({0.0, 0.0, 0.7}), triangle);
+  ExpectGap(0.7, kCube, At({0.2, 4.2, 0.0}), triangle);
+  ExpectGap(std::hypot(0.3, 0.4), kCube, At({0.0, -3.8, 0.9}), triangle);
 }
 
 TEST(ConvexBody, MeasuresFarFromTheBodiesOwnOrigin) {
@@ -94,17 +94,17 @@ TEST(ConvexBody, MeasuresFarFromTheBodiesOwnOrigin) {
 }
 
 TEST(ConvexBody, GivesTheReachWhereTheGapIsWider) {
-  EXPECT_EQ(Gap_m(cube, At({3.0, 0.0, 0.0}), cube, 0.5), 0.5);
+  EXPECT_EQ(Gap_m(kCube, At({3.0, 0.0, 0.0}), kCube, 0.5), 0.5);
 }
 
 TEST(ConvexBody, MeasuresHowDeepBoxesAreInEachOther) {
-  ExpectDepth(0.25, cube, At({0.75, 0.3, 0.2}), cube);
-  ExpectDepth(0.0, cube, At({1.0, 0.0, 0.0}), cube);
+  ExpectDepth(0.25, kCube, At({0.75, 0.3, 0.2}), kCube);
+  ExpectDepth(0.0, kCube, At({1.0, 0.0, 0.0}), kCube);
   // Enclosed: it leaves by the nearest side, with all of its own size.
   ExpectDepth(0.3 + 0.5 - 0.1, BoxOfSize({1.0, 0.9, 0.5}), At({0.2, 0.0, 0.1}),
               BoxOfSize({0.3, 0.3, 0.3}));
   constexpr double kEighth_rad = std::numbers::pi / 4.0;
-  ExpectDepth(0.5 + std::sqrt(0.5) - 1.1, cube, At({1.1, 0.0, 0.1}, kEighth_rad), cube);
+  ExpectDepth(0.5 + std::sqrt(0.5) - 1.1, kCube, At({1.1, 0.0, 0.1}, kEighth_rad), kCube);
 }
 
 TEST(ConvexBody, PartsCrossedBarsBetweenTheirEdges) {
@@ -128,8 +128,8 @@ TEST(ConvexBody, PartsRoundBarsBesideEachOther) {
 }
 
 TEST(ConvexBody, GivesTheLeastDepthAskedForWhereTheyAreLessDeep) {
-  EXPECT_EQ(Depth_m(cube, At({0.75, 0.3, 0.2}), cube, 0.3), 0.3);
-  EXPECT_NEAR(Depth_m(cube, At({0.75, 0.3, 0.2}), cube, 0.2), 0.25, kBodyRounding_m);
+  EXPECT_EQ(Depth_m(kCube, At({0.75, 0.3, 0.2}), kCube, 0.3), 0.3);
+  EXPECT_NEAR(Depth_m(kCube, At({0.75, 0.3, 0.2}), kCube, 0.2), 0.25, kBodyRounding_m);
 }
 
 TEST(ConvexBody, MeasuresHowDeepRoundBodiesAreInEachOther) {

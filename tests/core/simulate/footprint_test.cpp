@@ -141,7 +141,7 @@ TEST(Footprint, FillsTheBeamInACrowd) {
       const float y = 0.05F * static_cast<float>(column);
       const float z = 0.05F * static_cast<float>(row);
       if ((row + column) % 2 != 0) continue;
-      constexpr float x = 50.0F;
+      const float x = 50.0F;
       patches.vertices.insert(
           patches.vertices.end(),
           {{x, y, z}, {x, y + 0.05F, z}, {x, y + 0.05F, z + 0.05F}, {x, y, z + 0.05F}});

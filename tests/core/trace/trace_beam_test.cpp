@@ -338,9 +338,9 @@ TEST(TraceBeam, NamesEveryFacetOnce) {
 
 /// A host's caster, which knows rays only.
 struct OnlyRays final : RayCaster {
-  explicit OnlyRays(const RayCaster& caster) : caster_(caster) {}
-  void Cast(RayTile& tile) const override { caster_.Cast(tile); }
-  const RayCaster& caster_;
+  explicit OnlyRays(const RayCaster& of_host) : caster(of_host) {}
+  void Cast(RayTile& tile) const override { caster.Cast(tile); }
+  const RayCaster& caster;
 };
 
 TEST(TraceBeam, OfAHostThatKnowsRaysOnlyGivesTheSameFacets) {

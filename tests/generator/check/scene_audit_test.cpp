@@ -55,7 +55,7 @@ std::shared_ptr<const Model> Box(double half_size_m) {
   return std::make_shared<const Model>(Model{"box", {{MakeBox({-corner_m, corner_m}), 2, 9}}});
 }
 
-const MaterialLibrary two_materials({{"soil", 0.25}, {"paint", 0.3}});
+const MaterialLibrary kTwoMaterials({{"soil", 0.25}, {"paint", 0.3}});
 
 TEST(LookAround, SeesTheGroundBelowAndNothingAbove) {
   const auto world = std::make_shared<SimpleWorld>();
@@ -63,7 +63,7 @@ TEST(LookAround, SeesTheGroundBelowAndNothingAbove) {
   // The vehicle stands on a slope; "below" follows the plumb line.
   world->chunk_from_vehicle =
       MakeTransform(RotationFromYawPitchRoll(0.0, -0.1, 0.0), Vector3::Zero());
-  const SensorSurroundings around = LookAround(world, two_materials, Vector3(0, 0, 1), 100.0);
+  const SensorSurroundings around = LookAround(world, kTwoMaterials, Vector3(0, 0, 1), 100.0);
   const double height_m = 2.0 + std::cos(0.1);
   // "Below" allows half a degree from straight down; the tolerance is for float32.
   EXPECT_NEAR(around.below->range_m, height_m / std::sin(RadFromDeg(89.5)), 1e-5);
@@ -79,10 +79,10 @@ TEST(LookAround, TellsWhatTheSensorIsInside) {
   world->ground = Plate();
   world->AddObject(Box(0.5), Transform::Identity());
   world->AddObject(Box(3.0), Transform::Identity());
-  const SensorSurroundings around = LookAround(world, two_materials, Vector3(0, 0, 1), 100.0);
+  const SensorSurroundings around = LookAround(world, kTwoMaterials, Vector3(0, 0, 1), 100.0);
   EXPECT_EQ(around.inside, 0U);  // The sensor is between the two boxes.
   EXPECT_EQ(around.below->instance, 1U);
-  EXPECT_EQ(LookAround(world, two_materials, Vector3(0, 0.1, 0), 100.0).inside, 1U);
+  EXPECT_EQ(LookAround(world, kTwoMaterials, Vector3(0, 0.1, 0), 100.0).inside, 1U);
 }
 
 // Ten frames a second.

@@ -43,9 +43,9 @@ inline std::string CoarseScenario(const std::filesystem::path& folder) {
     },
     "vehicle": {"start_s_m": 200, "motion": {"profile": [{"time_s": 0, "speed_mps": 10}]}},
     "output": {"frame": "vehicle"},
-    "materials": ")" + scenarios_folder +
+    "materials": ")" + kScenariosFolder +
                            R"(materials/railway.json",
-    "labels": ")" + scenarios_folder +
+    "labels": ")" + kScenariosFolder +
                            R"(labels.json"
   })");
   return file.string();

@@ -36,9 +36,9 @@ std::filesystem::path TwoSensors(const std::filesystem::path& folder) {
     "world": {"alignment": {"course": {"type": "elements",
                                        "elements": [{"type": "straight", "length_m": 600}]}}},
     "vehicle": {"start_s_m": 200, "motion": {"profile": [{"time_s": 0, "speed_mps": 10}]}},
-    "materials": ")" + scenarios_folder +
+    "materials": ")" + kScenariosFolder +
                            R"(materials/railway.json",
-    "labels": ")" + scenarios_folder +
+    "labels": ")" + kScenariosFolder +
                            R"(labels.json"
   })");
   return file;

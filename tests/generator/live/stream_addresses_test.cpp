@@ -24,7 +24,7 @@ std::string ScenarioOfSensors(const std::filesystem::path& folder,
   std::string lidars, interfaces;
   for (const auto& [protocol, receivers] : sensors) {
     const std::string separator = lidars.empty() ? "" : ", ";
-    lidars += separator + R"({"file": ")" + scenarios_folder + "sensors/" +
+    lidars += separator + R"({"file": ")" + kScenariosFolder + "sensors/" +
               (protocol == "railcast" ? "vir2rail" : protocol) + R"(.json", "name": ")" + protocol +
               "\"}";
     interfaces += separator + R"({"sensor": ")" + protocol + R"(", "protocol": ")" + protocol +

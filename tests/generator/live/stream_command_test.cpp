@@ -119,9 +119,9 @@ TEST(Stream, SendsSeveralSensorsOfOneVehicleByOneClock) {
       }
     },
     "vehicle": {"start_s_m": 200, "motion": {"profile": [{"time_s": 0, "speed_mps": 10}]}},
-    "materials": ")" + scenarios_folder +
+    "materials": ")" + kScenariosFolder +
                                R"(materials/railway.json",
-    "labels": ")" + scenarios_folder +
+    "labels": ")" + kScenariosFolder +
                                R"(labels.json"
   })");
   Stream stream(scenario.string() + " --duration 0.3");
@@ -160,7 +160,7 @@ TEST(Stream, KnowsTheProtocolsAndPortsThatScenariosName) {
 TEST(Stream, SaysWhichOptionsDoNotGoTogether) {
   const TemporaryDirectory folder;
   const std::string scenario = CoarseScenario(folder.path());
-  const std::string two_sensors = scenarios_folder + "two_sensors.json";
+  const std::string two_sensors = kScenariosFolder + "two_sensors.json";
   const auto fault = [](const std::string& arguments) {
     const Ended ended = Generate("stream " + arguments);
     EXPECT_EQ(ended.status, 1);

@@ -48,8 +48,8 @@ ScenarioSpec TwoSensorScenario() {
     },
     "vehicle": {"start_s_m": 400, "motion": {"profile": [{"time_s": 0, "speed_mps": 10}]},
                 "ego_boxes_m": [[-18, -1.45, 0.3, 0.5, 1.45, 2]]},
-    "materials": ")" + scenarios_folder + R"(materials/railway.json",
-    "labels": ")" + scenarios_folder + R"(labels.json"
+    "materials": ")" + kScenariosFolder + R"(materials/railway.json",
+    "labels": ")" + kScenariosFolder + R"(labels.json"
   })");
   return ReadScenario(folder.path() / "scenario.json");
 }

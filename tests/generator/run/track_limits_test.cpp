@@ -19,10 +19,10 @@ class TrackLimits : public testing::Test {
  protected:
   // Returns the error for frames `first` to `last`, without the names of the scenario's file.
   std::string Message(std::uint32_t first, std::uint32_t last) const {
-    const auto world = MakeWorld(scenario);
-    const ScanPattern pattern = BuildScanPattern(scenario.lidar.scan);
+    const auto world = MakeWorld(scenario_);
+    const ScanPattern pattern = BuildScanPattern(scenario_.lidar.scan);
     std::string said =
-        MessageOf([&] { CheckStaysOnTracks(scenario, *world, pattern, first, last); });
+        MessageOf([&] { CheckStaysOnTracks(scenario_, *world, pattern, first, last); });
     const std::string file = (directory_.path() / "scenario.json").string() + ": ";
     for (std::size_t at = said.find(file); at != std::string::npos; at = said.find(file)) {
       said.erase(at, file.size());
@@ -34,7 +34,7 @@ class TrackLimits : public testing::Test {
   TemporaryDirectory directory_;
 
  protected:
-  ScenarioSpec scenario = ReadScenario(MakeProject(directory_.path()));
+  ScenarioSpec scenario_ = ReadScenario(MakeProject(directory_.path()));
 };
 
 MotionSpec Constantly(double speed_mps, bool reverse = false) {
@@ -48,7 +48,7 @@ TEST_F(TrackLimits, AreKeptByWhatStands) {
 TEST_F(TrackLimits, NameTheFirstFrameBeyondTheEnd) {
   // 600 m at 25 m/s take 24 s. Frame 240 ends 0.75 mm beyond the end, which is within the
   // tolerance.
-  scenario.vehicle.motion = Constantly(25.0);
+  scenario_.vehicle.motion = Constantly(25.0);
   EXPECT_EQ(Message(0, 240), "no error");
   const std::string fault =
       "/vehicle/motion: leaves track \"main\", from 0 to 1000 m, at frame 241 (24.1 s)";
@@ -61,13 +61,13 @@ TEST_F(TrackLimits, NameTheFirstFrameBeyondTheEnd) {
 // The buffers of an open wagon of 14.04 m are 2.52 m ahead of its front pivot, and 7.02 m ahead of
 // its middle.
 TEST_F(TrackLimits, HoldForTheForemostBuffersOfTrains) {
-  scenario.vehicle.consist = {{TypeNamed("open_wagon"), {}, false}};
-  scenario.vehicle.motion = Constantly(25.0);
+  scenario_.vehicle.consist = {{TypeNamed("open_wagon"), {}, false}};
+  scenario_.vehicle.motion = Constantly(25.0);
   TrainSpec train{.name = "freight",
                   .s_m = 600.0,
                   .vehicles = {{TypeNamed("open_wagon"), {}, false}},
                   .motion = Constantly(50.0, true)};
-  scenario.world.trains = {train};
+  scenario_.world.trains = {train};
   // 597.48 m at 25 m/s take 23.9 s, and 600 - 14.04 m at 50 m/s 11.72 s.
   EXPECT_EQ(Message(0, 116), "no error");
   EXPECT_EQ(Message(0, 300),
@@ -77,16 +77,16 @@ TEST_F(TrackLimits, HoldForTheForemostBuffersOfTrains) {
 }
 
 TEST_F(TrackLimits, HoldInReverseAndOnAShorterTrack) {
-  scenario.world.tracks[0].start_s_m = 100.0;
-  scenario.world.tracks[0].end_s_m = 500.0;
-  scenario.vehicle.motion = Constantly(20.0, true);
+  scenario_.world.tracks[0].start_s_m = 100.0;
+  scenario_.world.tracks[0].end_s_m = 500.0;
+  scenario_.vehicle.motion = Constantly(20.0, true);
   EXPECT_EQ(Message(0, 1000),
             "/vehicle/motion: leaves track \"main\", from 100 to 500 m, at frame 151 (15.1 s)");
 }
 
 TEST_F(TrackLimits, HoldForObjectsToo) {
-  scenario.vehicle.motion = Constantly(25.0);
-  scenario.world.objects[0].motion = Constantly(5.0, true);
+  scenario_.vehicle.motion = Constantly(25.0);
+  scenario_.world.objects[0].motion = Constantly(5.0, true);
   const std::string said = Message(0, 5000);
   EXPECT_NE(said.find("/world/objects/0/motion: leaves track \"main\", from 0 to 1000 m, at frame "
                       "901 (90.1 s)"),
@@ -97,15 +97,15 @@ TEST_F(TrackLimits, HoldForObjectsToo) {
 
 TEST_F(TrackLimits, LetATrainStopAtTheVeryEnd) {
   // 600 m that begin at 10 m/s; over the last 100 m the vehicle brakes to a stop.
-  scenario.vehicle.motion = {{{.time_s = {}, .s_m = 400.0, .speed_mps = 10.0},
-                              {.time_s = {}, .s_m = 900.0, .speed_mps = 10.0},
-                              {.time_s = {}, .s_m = 1000.0, .speed_mps = 0.0}},
-                             false};
+  scenario_.vehicle.motion = {{{.time_s = {}, .s_m = 400.0, .speed_mps = 10.0},
+                               {.time_s = {}, .s_m = 900.0, .speed_mps = 10.0},
+                               {.time_s = {}, .s_m = 1000.0, .speed_mps = 0.0}},
+                              false};
   EXPECT_EQ(Message(0, 1'000'000), "no error");
 }
 
 TEST_F(TrackLimits, AreAskedForTheFramesBeforeATime) {
-  const ScanPattern pattern = BuildScanPattern(scenario.lidar.scan);  // 10 Hz
+  const ScanPattern pattern = BuildScanPattern(scenario_.lidar.scan);  // 10 Hz
   EXPECT_EQ(LastFrameBefore(pattern, 0), 0U);
   EXPECT_EQ(LastFrameBefore(pattern, 1), 0U);
   EXPECT_EQ(LastFrameBefore(pattern, 100'000'000), 0U);

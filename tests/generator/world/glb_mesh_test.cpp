@@ -76,7 +76,7 @@ TEST(EncodeGlbMesh, PassesTheValidatorOfKhronos) {
   if (RunCommand("node -e 'require.resolve(\"gltf-validator\")'").status != 0) {
     GTEST_SKIP() << "node or npm's gltf-validator is missing";
   }
-  ScenarioSpec scenario = ReadScenario(scenarios_folder + "station.json");
+  ScenarioSpec scenario = ReadScenario(kScenariosFolder + "station.json");
   scenario.world.vegetation.trees_per_hectare = 0.0;
   scenario.world.vegetation.grass = false;
   const auto world = MakeWorld(scenario);

@@ -32,7 +32,7 @@ TEST(ExportWorld, GathersByLabelAndMaterialInTheChunksFrame) {
 
 // An arc of 500 m with boxes on and beside the track at the boundaries of chunks.
 ScenarioSpec ArcWithBoxes() {
-  ScenarioSpec scenario = ReadScenario(scenarios_folder + "minimal.json");
+  ScenarioSpec scenario = ReadScenario(kScenariosFolder + "minimal.json");
   WorldSpec& world = scenario.world;
   scenario.vehicle.start_s_m = 0.0;
   world.alignment.course = AlignmentElementsSpec{{{ElementType::kArc, 500.0, -500.0}}};

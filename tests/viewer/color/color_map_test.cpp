@@ -166,11 +166,11 @@ double Apart(const Label& a, const Label& b) {
 /// Returns whether a label is of something found along an ordinary line, so that such labels are
 /// often in one picture.
 bool IsAlongTheLine(const Label& label) {
-  static const std::set<std::string> kNames = {
+  static const std::set<std::string> names = {
       "rail",         "sleeper",        "ballast", "ground", "grass",      "tree",
       "contact_wire", "messenger_wire", "dropper", "mast",   "cantilever", "wagon",
       "person",       "pole",           "object",  "signal"};
-  return kNames.contains(label.name);
+  return names.contains(label.name);
 }
 
 TEST(LabelColors, AreMeasuredAsPublished) {

@@ -18,13 +18,13 @@ using testing::SizeIs;
 
 /// The points are so far apart that, after the shifts in these tests, each is still nearest to
 /// itself.
-const std::vector<Vector3> sparse_world_m = {{100, 0, 0}, {110, 0, 0}, {100, 10, 0}, {100, 0, 20}};
+const std::vector<Vector3> kSparseWorld_m = {{100, 0, 0}, {110, 0, 0}, {100, 10, 0}, {100, 0, 20}};
 
 TEST(ComposeDistances, LaysTheSecondWhereItWasInTheFirstsAxes) {
   const Transform first = MakeTransform(RotationFromYawPitchRoll(0.3, 0.0, 0.0), {60, 0, 0});
   const Transform second = MakeTransform(RotationFromYawPitchRoll(-1.2, 0.1, 0.0), {90, 5, 1});
-  const auto a = Posed(sparse_world_m, first);
-  const auto b = Posed(sparse_world_m, second);
+  const auto a = Posed(kSparseWorld_m, first);
+  const auto b = Posed(kSparseWorld_m, second);
   Choices choices{.distance_ends_m = {{0.0, 1.0}}};
   const Composition composition = ComposeDistances(a, b, choices);
   ASSERT_THAT(composition.clouds, SizeIs(2));
@@ -41,8 +41,8 @@ TEST(ComposeDistances, LaysTheSecondWhereItWasInTheFirstsAxes) {
 }
 
 TEST(ComposeDistances, ColoursByHowFarTheOtherIsAway) {
-  const auto a = SharedCloud(sparse_world_m);
-  std::vector<Vector3> shifted_m = sparse_world_m;
+  const auto a = SharedCloud(kSparseWorld_m);
+  std::vector<Vector3> shifted_m = kSparseWorld_m;
   for (std::size_t i = 0; i < shifted_m.size(); ++i)
     shifted_m[i].z() += 0.5 * static_cast<double>(i);
   Choices choices{.distance_ends_m = {{0.0, 2.0}}};
@@ -78,7 +78,7 @@ TEST(ComposeDistances, HasAScaleForCloudsThatAreTheSame) {
 
 TEST(ComposeDistances, HasNoColoursWhereThereIsNothingNear) {
   const Composition composition =
-      ComposeDistances(SharedCloud(sparse_world_m), SharedCloud({}), {});
+      ComposeDistances(SharedCloud(kSparseWorld_m), SharedCloud({}), {});
   EXPECT_THAT(composition.clouds[0].colors, Each(kNoValueColor));
   EXPECT_THAT(composition.clouds[1].colors, IsEmpty());
 }

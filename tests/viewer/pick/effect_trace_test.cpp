@@ -85,7 +85,7 @@ class Traced {
 fs::path Vary(const TemporaryDirectory& folder, const std::string& base, const std::string& more) {
   fs::path file = folder.path() / "scenario.json";
   WriteFileWhole(file,
-                 R"({"version": 1, "file": ")" + scenarios_folder + base + R"(", )" + more + "}");
+                 R"({"version": 1, "file": ")" + kScenariosFolder + base + R"(", )" + more + "}");
   return file;
 }
 
@@ -100,7 +100,7 @@ float LastRange_m(const std::string& story) {
 
 TEST(EffectTrace, SaysWhatTheProgramPrints) {
   for (const char* name : {"minimal.json", "st_gallen_approach.json"}) {
-    Traced traced(scenarios_folder + name);
+    Traced traced(kScenariosFolder + name);
     const std::uint32_t missed =
         traced.FindFiring([&](std::uint32_t slot) { return std::isnan(traced.frame().x[slot]); });
     for (const std::uint32_t firing : {0U, 1000U, 28799U, missed}) {
@@ -114,7 +114,7 @@ TEST(EffectTrace, SaysWhatTheProgramPrints) {
 TEST(EffectTrace, IsTheSameForAllReturnsOfAFiring) {
   const TemporaryDirectory folder;
   Traced traced(Vary(folder, "st_gallen_approach.json", R"("fidelity": "footprint",
-      "lidar": {"file": ")" + scenarios_folder + R"(sensors/vir2rail.json",
+      "lidar": {"file": ")" + kScenariosFolder + R"(sensors/vir2rail.json",
                 "mount": {"position_m": [2.2, 0, 2.5]},
                 "receiver": {"range_at_10_percent_m": 200, "return_mode": "dual"}})"));
   const Frame& frame = traced.frame();
@@ -132,7 +132,7 @@ TEST(EffectTrace, IsTheSameForAllReturnsOfAFiring) {
 TEST(EffectTrace, FindsTheFiringInARecordingWithoutItsSecondReturns) {
   const TemporaryDirectory folder;
   Traced traced(Vary(folder, "minimal.json", R"("fidelity": "footprint",
-      "lidar": {"file": ")" + scenarios_folder + R"(sensors/vir2rail.json",
+      "lidar": {"file": ")" + kScenariosFolder + R"(sensors/vir2rail.json",
                 "mount": {"position_m": [2.2, 0, 2.5]},
                 "receiver": {"range_at_10_percent_m": 200, "return_mode": "dual"}})"));
   RecordedFrame single = Grid(traced.frame());
@@ -169,7 +169,7 @@ class TracedSequence : public testing::Test {
 };
 
 TEST_F(TracedSequence, MeasuresWhatTheStorySays) {
-  const auto recording = Make(scenarios_folder + "st_gallen_approach.json");
+  const auto recording = Make(kScenariosFolder + "st_gallen_approach.json");
   (void)recording->Next();
   const RecordedFrame recorded = (*recording->Next())();
   const Frame& frame = recorded.frame;
@@ -216,7 +216,7 @@ TEST(EffectTrace, SaysWhatIsMissing) {
   RecordedFrame recorded = RecordedCloud("cloud.pcd", {{1, 0, 0}});
   EXPECT_EQ(EffectTrace(bare).Of(recorded, 0),
             "error: cloud.pcd: has no scenario to trace points with");
-  EffectTrace trace(InfoOf(scenarios_folder + "minimal.json"));
+  EffectTrace trace(InfoOf(kScenariosFolder + "minimal.json"));
   EXPECT_EQ(trace.Of(recorded, 0),
             "error: cloud.pcd: is no grid of firings, so the firing of a point is not known "
             "(a stream needs the fields ring and column)");
@@ -234,9 +234,9 @@ std::string Await(EffectTrace& trace) {
 }
 
 TEST(EffectTrace, AnswersTheLastOfSeveralQuestions) {
-  const Traced traced(scenarios_folder + "minimal.json");
+  const Traced traced(kScenariosFolder + "minimal.json");
   const auto recorded = std::make_shared<const RecordedFrame>(Grid(traced.frame()));
-  EffectTrace trace(InfoOf(scenarios_folder + "minimal.json"));
+  EffectTrace trace(InfoOf(kScenariosFolder + "minimal.json"));
   EXPECT_EQ(trace.Take(), std::nullopt) << "nothing was asked";
   for (const std::uint32_t firing : {5U, 6U, 7U}) trace.Ask(recorded, traced.SlotOf(firing));
   EXPECT_THAT(Await(trace), HasSubstr(" firing 7 at "));
@@ -246,18 +246,18 @@ TEST(EffectTrace, AnswersTheLastOfSeveralQuestions) {
 }
 
 TEST(EffectTrace, MayBeAskedBothWaysAtOnce) {
-  Traced traced(scenarios_folder + "minimal.json");
+  Traced traced(kScenariosFolder + "minimal.json");
   const auto recorded = std::make_shared<const RecordedFrame>(Grid(traced.frame()));
-  EffectTrace trace(InfoOf(scenarios_folder + "minimal.json"));
+  EffectTrace trace(InfoOf(kScenariosFolder + "minimal.json"));
   trace.Ask(recorded, traced.SlotOf(5));
   EXPECT_THAT(trace.Of(*recorded, traced.SlotOf(6)), HasSubstr(" firing 6 at "));
   EXPECT_THAT(Await(trace), HasSubstr(" firing 5 at "));
 }
 
 TEST(EffectTrace, MayEndBeforeItsAnswerIsThere) {
-  const Traced traced(scenarios_folder + "minimal.json");
+  const Traced traced(kScenariosFolder + "minimal.json");
   const auto recorded = std::make_shared<const RecordedFrame>(Grid(traced.frame()));
-  RecordingInfo info = InfoOf(scenarios_folder + "minimal.json");
+  RecordingInfo info = InfoOf(kScenariosFolder + "minimal.json");
   info.scenario->fidelity = Fidelity::kAuto;
   EffectTrace trace(info);
   trace.Ask(recorded, 0);

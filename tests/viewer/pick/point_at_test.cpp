@@ -94,17 +94,17 @@ TEST(PointAt, WorksWithoutPerspective) {
 }
 
 // The points are 5 m apart horizontally and 12 m vertically, so 13 m in all.
-const std::vector<Vector3> two_points_m = {{10, 1, -2}, {13, 5, 10}};
+const std::vector<Vector3> kTwoPoints_m = {{10, 1, -2}, {13, 5, 10}};
 
 RecordedFrame PosedFrame(const std::string& name, const Transform& world_from_sensor) {
-  RecordedFrame recorded = RecordedCloud(name, two_points_m);
+  RecordedFrame recorded = RecordedCloud(name, kTwoPoints_m);
   recorded.has_pose = true;
   recorded.frame.world_from_sensor = world_from_sensor;
   return recorded;
 }
 
 TEST(DistanceText, SaysTheWayWithinAFrameAlongTheSensorsAxes) {
-  const ShownFrame shown = Show(RecordedCloud("a.pcd", two_points_m));
+  const ShownFrame shown = Show(RecordedCloud("a.pcd", kTwoPoints_m));
   EXPECT_EQ(DistanceText(PickOf(shown, 0), PickOf(shown, 1)),
             "13.000 m (dx 3.000, dy 4.000, dz 12.000; level 5.000 m)");
   EXPECT_EQ(DistanceText(PickOf(shown, 1), PickOf(shown, 0)),
@@ -114,8 +114,8 @@ TEST(DistanceText, SaysTheWayWithinAFrameAlongTheSensorsAxes) {
 }
 
 TEST(DistanceText, KnowsAFrameThatWasReadAgain) {
-  const ShownFrame before = Show(RecordedCloud("a.pcd", two_points_m));
-  const ShownFrame again = Show(RecordedCloud("a.pcd", two_points_m));
+  const ShownFrame before = Show(RecordedCloud("a.pcd", kTwoPoints_m));
+  const ShownFrame again = Show(RecordedCloud("a.pcd", kTwoPoints_m));
   EXPECT_EQ(DistanceText(PickOf(before, 0), PickOf(again, 1)),
             "13.000 m (dx 3.000, dy 4.000, dz 12.000; level 5.000 m)");
 }
@@ -133,11 +133,11 @@ TEST(DistanceText, SaysTheWayBetweenFramesAlongTheWorldsAxes) {
 }
 
 TEST(DistanceText, IsNothingBetweenFramesWithoutPoses) {
-  const ShownFrame bare = Show(RecordedCloud("a.pcd", two_points_m));
+  const ShownFrame bare = Show(RecordedCloud("a.pcd", kTwoPoints_m));
   const ShownFrame posed = Show(PosedFrame("b.pcd", Transform::Identity()));
   EXPECT_EQ(DistanceText(PickOf(bare, 0), PickOf(posed, 1)), std::nullopt);
   EXPECT_EQ(DistanceText(PickOf(posed, 0), PickOf(bare, 1)), std::nullopt);
-  EXPECT_EQ(DistanceText(PickOf(bare, 0), PickOf(Show(RecordedCloud("c.pcd", two_points_m)), 1)),
+  EXPECT_EQ(DistanceText(PickOf(bare, 0), PickOf(Show(RecordedCloud("c.pcd", kTwoPoints_m)), 1)),
             std::nullopt);
 }
 

@@ -43,10 +43,9 @@ class CameraImageInset : public WindowTest {
     Picture expected{kInsetWidth, kInsetHeight, {}};
     for (int y = 0; y < kInsetHeight; ++y) {
       for (int x = 0; x < kInsetWidth; ++x) {
-        const int row = y * kImageHeight / kInsetHeight;
-        const int column = x * kImageWidth / kInsetWidth;
-        expected.pixels.push_back(
-            image->pixels.at(static_cast<std::size_t>(row * kImageWidth + column)));
+        const auto row = static_cast<std::size_t>(y * kImageHeight / kInsetHeight);
+        const auto column = static_cast<std::size_t>(x * kImageWidth / kInsetWidth);
+        expected.pixels.push_back(image->pixels.at(row * kImageWidth + column));
       }
     }
     EXPECT_TRUE(picture.Part(kInsetAt, kInsetWidth, kInsetHeight) == expected);

@@ -87,7 +87,8 @@ TEST_F(DatasetOverviewTest, AgreesWithTheIndex) {
   EXPECT_EQ(person.objects, persons.size());
   EXPECT_EQ(person.in_frames, in_frames);
   EXPECT_EQ(person.by_distance[0], near);
-  EXPECT_EQ(std::accumulate(person.by_occlusion.begin(), person.by_occlusion.end(), 0U), in_frames);
+  EXPECT_EQ(std::accumulate(person.by_occlusion.begin(), person.by_occlusion.end(), std::size_t{0}),
+            in_frames);
 }
 
 TEST_F(DatasetOverviewTest, RefusesAReportThatChangedSinceItWasWritten) {

@@ -132,8 +132,8 @@ TEST(StudyTable, HasWordsAndColoursOnThePage) {
         "<td><span class=\"grade open\">not shown</span></td>",
         "<td><span class=\"grade open\">too few</span></td>",
         // At the head, of all approaches: 150 m are needed at most.
-        "<dt>person: detected in time</dt><dd><span class=\"figure words\"><span class=\"grade "
-        "bad\">no</span>",
+        ("<dt>person: detected in time</dt><dd><span class=\"figure words\"><span class=\"grade "
+         "bad\">no</span>"),
         "<dt>person: needed, at most</dt><dd><span class=\"figure\">150</span>",
         "<th scope=\"row\">clear</th>"}) {
     EXPECT_THAT(page, testing::HasSubstr(cell));

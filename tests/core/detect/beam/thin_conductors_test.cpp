@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kSigmaH_rad = 0.75e-3;
 constexpr double kSigmaV_rad = 0.375e-3;
-const BeamShape vlp16_beam{Eigen::Vector3f::UnitZ(), kSigmaH_rad, kSigmaV_rad};
+const BeamShape kVlp16Beam{Eigen::Vector3f::UnitZ(), kSigmaH_rad, kSigmaV_rad};
 
 void SetRay(RayTile& rays, std::size_t i, const Vector3& origin_m, const Vector3& direction) {
   SetRay(rays, i, {origin_m.cast<float>(), direction.cast<float>()}, 0.0F);
@@ -120,7 +120,7 @@ std::vector<WireCapture> CaptureSlowly(const RayTile& rays,
 
 std::vector<WireCapture> Capture(const RayTile& rays,
                                  const WireSet& wires,
-                                 const BeamShape& shape = vlp16_beam) {
+                                 const BeamShape& shape = kVlp16Beam) {
   std::vector<WireCapture> captures;
   CaptureWires(rays, shape, wires, captures);
   return captures;
@@ -193,7 +193,7 @@ TEST(CaptureWires, TwoWiresInABeamAreTwoCapturesTheNearerFirst) {
     SetRay(*rays, i, Vector3::Zero(), Vector3(i == 5 ? 1.0 : -1.0, 0.0, 0.0));
   }
   std::vector<WireCapture> captures(1);  // Captures that exist already must be kept.
-  CaptureWires(*rays, vlp16_beam, wires, captures);
+  CaptureWires(*rays, kVlp16Beam, wires, captures);
   ASSERT_EQ(captures.size(), 3U);
   EXPECT_EQ(captures[1].lane, 5U);
   EXPECT_EQ(captures[2].lane, 5U);
@@ -258,14 +258,14 @@ TEST(CaptureWires, FindsMovingWiresWhereTheyAreAtTheBeamsTime) {
       rays->shutter[i] = static_cast<float>(i % 8) / 7.0F;
     }
     std::vector<WireCapture> captures;
-    CaptureWires(*rays, vlp16_beam, moving, captures);
+    CaptureWires(*rays, kVlp16Beam, moving, captures);
     num_captures += captures.size();
     for (std::uint32_t k = 0; k < 8; ++k) {
       std::vector<Vector3> now_m = points_m;
       for (std::size_t p = 0; p < 3; ++p) now_m[p] += k / 7.0 * moves_m[p];
       WireSet still;
       still.Add(now_m, 6e-3, 1);
-      for (const WireCapture& expected : CaptureSlowly(*rays, vlp16_beam, still)) {
+      for (const WireCapture& expected : CaptureSlowly(*rays, kVlp16Beam, still)) {
         if (expected.lane % 8 != k) continue;
         ++num_expected;
         const auto found = std::find_if(captures.begin(), captures.end(), [&](const auto& capture) {

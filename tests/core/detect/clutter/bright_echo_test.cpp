@@ -35,19 +35,19 @@ FacingBeams BeforeSheeting(double first_m, double step_m) {
 // the light followed step by step in watts.
 double GhostRatio(double range_m, double reflectance, double extinction_per_m) {
   const DetectorSpec spec;
-  const double sent_W = 75.0;
+  const double sent_w = 75.0;
   const double radius_m = 0.005;
   const double area_m2 = std::numbers::pi * radius_m * radius_m;
   const double rho = 570.2;
   const double both_ways = std::exp(-2.0 * extinction_per_m * range_m);
   // Irradiance at the sensor by a surface of effective reflectance rho that faces a beam.
-  const auto irradiance_W_per_m2 = [&](double power_W) {
-    return power_W * both_ways * rho / (std::numbers::pi * range_m * range_m);
+  const auto irradiance_w_per_m2 = [&](double power_w) {
+    return power_w * both_ways * rho / (std::numbers::pi * range_m * range_m);
   };
-  const double second_W = reflectance * area_m2 * irradiance_W_per_m2(sent_W);
-  const double received_W = area_m2 * irradiance_W_per_m2(second_W);
-  const double white_at_1_m_W = area_m2 * sent_W / std::numbers::pi;
-  return received_W / white_at_1_m_W / LeastPower(spec.receiver);
+  const double second_w = reflectance * area_m2 * irradiance_w_per_m2(sent_w);
+  const double received_w = area_m2 * irradiance_w_per_m2(second_w);
+  const double white_at_1_m_w = area_m2 * sent_w / std::numbers::pi;
+  return received_w / white_at_1_m_w / LeastPower(spec.receiver);
 }
 
 TEST(Ghost, HasThePowerOfLightThatGoesTheWayTwice) {

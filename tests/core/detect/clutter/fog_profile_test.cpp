@@ -231,7 +231,7 @@ TEST(FogPatches, AreStandardNormalOverSeedsToTheFourthMoment) {
     squares += g * g;
     fourth += g * g * g * g;
   }
-  constexpr double n = kNumSeeds;
+  const double n = kNumSeeds;
   EXPECT_NEAR(sum / n, 0.0, 4.0 / std::sqrt(n));
   EXPECT_NEAR(squares / n, 1.0, 4.0 * std::sqrt(2.0 / n));
   // A cosine of variance v has the fourth moment 3/2 v^2 instead of 3 v^2; the variance of g^4 is

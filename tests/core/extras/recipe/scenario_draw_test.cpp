@@ -258,7 +258,7 @@ TEST(ScenarioDraw, PutsAMountIntoADrawnSensor) {
   recipe["draws"]["/lidar"] = {
       {"type", "choice"},
       {"values",
-       {scenarios_folder + "sensors/vlp16.json", scenarios_folder + "sensors/hdl32e.json"}}};
+       {kScenariosFolder + "sensors/vlp16.json", kScenariosFolder + "sensors/hdl32e.json"}}};
   recipe["draws"]["/lidar/mount/position_m"] = {{"type", "choice"}, {"values", {{2.0, 0.0, 4.0}}}};
   std::set<std::string> sensors;
   for (const DrawnScenario& drawn : DrawAll(ReadProjectRecipe(directory.path(), recipe))) {

@@ -281,7 +281,7 @@ class GroupMember {
     sockaddr_in any{};
     any.sin_family = AF_INET;
     socklen_t size = sizeof any;
-    ::bind(socket_, reinterpret_cast<const sockaddr*>(&any), size);
+    (void)::bind(socket_, reinterpret_cast<const sockaddr*>(&any), size);
     ::getsockname(socket_, reinterpret_cast<sockaddr*>(&any), &size);
     port_ = ntohs(any.sin_port);
     ip_mreq membership{};

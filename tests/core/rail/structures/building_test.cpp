@@ -22,9 +22,9 @@ LinesideSurfaces FourSurfaces() {
 }
 
 /// 12 x 8 m.
-const std::vector<Eigen::Vector2d> oblong_m = {{-6, -4}, {6, -4}, {6, 4}, {-6, 4}};
+const std::vector<Eigen::Vector2d> kOblong_m = {{-6, -4}, {6, -4}, {6, 4}, {-6, 4}};
 /// An L of 12 x 8 m whose corner of 6 x 4 m is missing.
-const std::vector<Eigen::Vector2d> angle_m = {{-6, -4}, {6, -4}, {6, 0}, {0, 0}, {0, 4}, {-6, 4}};
+const std::vector<Eigen::Vector2d> kAngle_m = {{-6, -4}, {6, -4}, {6, 0}, {0, 0}, {0, 4}, {-6, 4}};
 
 double Area_m2(const Model& model, const SurfaceClass& surface) {
   double area_m2 = 0.0;
@@ -56,7 +56,7 @@ double Volume_m3(const Model& model, const LinesideSurfaces& surfaces) {
 
 TEST(BuildingModel, StandsOnItsFootprintWithAFlatRoof) {
   const LinesideSurfaces surfaces = FourSurfaces();
-  const Model building = MakeBuilding({angle_m, 6.5, {}, false}, surfaces);
+  const Model building = MakeBuilding({kAngle_m, 6.5, {}, false}, surfaces);
   EXPECT_EQ(CountBadTriangles(building), 0U);
   EXPECT_EQ(building.num_triangles(), 2U * 6U + 4U);
   EXPECT_NEAR(Area_m2(building, surfaces.flat_roof), 72.0, 1e-4);
@@ -66,7 +66,8 @@ TEST(BuildingModel, StandsOnItsFootprintWithAFlatRoof) {
 
 TEST(BuildingModel, CarriesAGableRoofAlongItsLongerSide) {
   const LinesideSurfaces surfaces = FourSurfaces();
-  for (std::vector<Eigen::Vector2d> corners_m : {oblong_m, {{-4, -6}, {4, -6}, {4, 6}, {-4, 6}}}) {
+  for (const std::vector<Eigen::Vector2d>& corners_m :
+       {kOblong_m, std::vector<Eigen::Vector2d>{{-4, -6}, {4, -6}, {4, 6}, {-4, 6}}}) {
     const BuildingShape shape{corners_m, 4.0, 0.25 * std::numbers::pi, false};
     const Model building = MakeBuilding(shape, surfaces);
     EXPECT_NEAR(RidgeRise_m(shape), 4.0, 1e-12);
@@ -78,14 +79,14 @@ TEST(BuildingModel, CarriesAGableRoofAlongItsLongerSide) {
 
 TEST(BuildingModel, TurnsItsFacesOutwardsWhicheverWayTheCornersRun) {
   const LinesideSurfaces surfaces = FourSurfaces();
-  const std::vector<Eigen::Vector2d> backwards_m(angle_m.rbegin(), angle_m.rend());
+  const std::vector<Eigen::Vector2d> backwards_m(kAngle_m.rbegin(), kAngle_m.rend());
   EXPECT_NEAR(Volume_m3(MakeBuilding({backwards_m, 6.5, {}, false}, surfaces), surfaces),
               72.0 * 7.5, 1e-3);
 }
 
 TEST(BuildingModel, HasWindowsOfGlassInEveryStoreyOutsideItsWalls) {
   const LinesideSurfaces surfaces = FourSurfaces();
-  const Model building = MakeBuilding({oblong_m, 6.5, {}, true}, surfaces);
+  const Model building = MakeBuilding({kOblong_m, 6.5, {}, true}, surfaces);
   // 12 m have room for 1 + floor((12 - 2.8) / 3) windows, 8 m for 2; two storeys.
   const double num_windows = 2.0 * 2.0 * (4.0 + 2.0);
   EXPECT_NEAR(Area_m2(building, surfaces.window), num_windows * 1.2 * 1.4, 1e-3);
@@ -105,7 +106,7 @@ TEST(BuildingModel, KeepsToFewTrianglesHoweverLongItIs) {
 
 TEST(BuildingModel, LeavesOutWindowsWhereNoneHasRoom) {
   const LinesideSurfaces surfaces = FourSurfaces();
-  EXPECT_EQ(Area_m2(MakeBuilding({oblong_m, 2.9, {}, true}, surfaces), surfaces.window), 0.0);
+  EXPECT_EQ(Area_m2(MakeBuilding({kOblong_m, 2.9, {}, true}, surfaces), surfaces.window), 0.0);
   EXPECT_EQ(Area_m2(MakeBuilding({{{0, 0}, {2, 0}, {2, 2}, {0, 2}}, 4.0, {}, true}, surfaces),
                     surfaces.window),
             0.0);

@@ -56,7 +56,6 @@ TEST_F(DatasetContentTest, OfSeveralSensorsAreTheSequencesOfEach) {
 TEST_F(DatasetContentTest, OfAnUnfinishedDataSetIsRefused) {
   (void)MakeDataset(recipe_, set());
   EXPECT_EQ(SequencesOf(set()).size(), 3U);
-  const std::string manifest = ReadFileWhole(set() / "manifest.json");
   fs::remove(set() / "manifest.json");
   const std::string rule = ": must be a finished data set (got ";
   const std::string advice =

@@ -74,8 +74,8 @@ class OfOneLine : public ::testing::Test {
     return (runs_east_ ? steps : 4.0 - steps) * kStep_m;
   }
   [[nodiscard]] const WorldJson& Only(const std::string& type) const {
-    static const WorldJson kNone;
-    const WorldJson* found = &kNone;
+    static const WorldJson none;
+    const WorldJson* found = &none;
     for (const WorldJson& structure : structures_) {
       if (structure["type"] == type) found = &structure;
     }

@@ -55,9 +55,9 @@ std::string Traffic() {
                 "consist": [{"type": "multiple_unit"}, {"type": "multiple_unit"}]},
     "weather": {"rain_rate_mmph": 3, "sun": {"illuminance_klx": 50}},
     "materials": ")" +
-         scenarios_folder + R"(materials/railway.json",
+         kScenariosFolder + R"(materials/railway.json",
     "labels": ")" +
-         scenarios_folder + R"(labels.json"
+         kScenariosFolder + R"(labels.json"
   })";
 }
 

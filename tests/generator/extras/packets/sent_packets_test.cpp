@@ -24,7 +24,7 @@ std::string ScenarioWith(const std::string& sensor, const std::filesystem::path&
   WriteFileWhole(file, R"({"version": 1, "file": ")" + CoarseScenario(folder) +
                            R"(", "fidelity": "plausibility", "output": {"frame": "sensor"},
                            "lidar": ")" +
-                           scenarios_folder + "sensors/" + sensor + R"(.json"})");
+                           kScenariosFolder + "sensors/" + sensor + R"(.json"})");
   return file.string();
 }
 

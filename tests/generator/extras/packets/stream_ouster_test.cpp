@@ -38,9 +38,9 @@ std::string OusterScenario(const std::filesystem::path& folder, const std::strin
       "objects": [{"name": "wagon", "type": "open_wagon", "s_m": 220}]
     },
     "vehicle": {"start_s_m": 200, "motion": {"profile": [{"time_s": 0, "speed_mps": 10}]}},
-    "materials": ")" + scenarios_folder +
+    "materials": ")" + kScenariosFolder +
                                             R"(materials/railway.json",
-    "labels": ")" + scenarios_folder + R"(labels.json"
+    "labels": ")" + kScenariosFolder + R"(labels.json"
   })");
   return (folder / "drive.json").string();
 }

@@ -34,7 +34,7 @@ std::string ReplayedScenario(const fs::path& folder, const std::string& sensor =
   const fs::path file = folder / ("sensor" + sensor + ".json");
   const std::string lidar =
       sensor.empty() ? ""
-                     : R"(, "lidar": ")" + scenarios_folder + "sensors/" + sensor + R"(.json")";
+                     : R"(, "lidar": ")" + kScenariosFolder + "sensors/" + sensor + R"(.json")";
   WriteFileWhole(file, R"({"version": 1, "file": ")" + CoarseScenario(folder) +
                            R"(", "fidelity": "plausibility", "output": {"frame": "sensor"})" +
                            lidar + "}");

@@ -29,7 +29,7 @@ constexpr double kRange_m = 60.0;
 
 /// A station with platforms, a fence and a contact line, without things. The sensor is noisy.
 ScenarioSpec StationToSurvey() {
-  ScenarioSpec scenario = ReadScenario(scenarios_folder + "station.json");
+  ScenarioSpec scenario = ReadScenario(kScenariosFolder + "station.json");
   scenario.world.objects.clear();
   return scenario;
 }

@@ -1,5 +1,6 @@
 #include "generator/extras/survey/survey.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

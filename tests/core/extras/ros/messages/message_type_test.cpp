@@ -174,7 +174,7 @@ TEST(MessageType, HasTheFieldsAndConstantsOfRos2) {
 
 // The ros2msg line of a field of a .proto file; empty for other lines.
 std::string LineOfProto(const std::string& line) {
-  static const std::map<std::string, std::string> kTypes = {
+  static const std::map<std::string, std::string> types = {
       {"double", "float64"},
       {"string", "string"},
       {"bool", "bool"},
@@ -193,8 +193,8 @@ std::string LineOfProto(const std::string& line) {
   if (is_repeated) words >> type;
   words >> name >> equals;
   if (equals != "=" || type.starts_with("//")) return {};
-  const auto known = kTypes.find(type);
-  std::string text = known != kTypes.end() ? known->second : type;
+  const auto known = types.find(type);
+  std::string text = known != types.end() ? known->second : type;
   if (text.starts_with("foxglove.")) text = "foxglove_msgs/" + text.substr(9);
   return text + (is_repeated ? "[] " : " ") + name;
 }

@@ -34,22 +34,22 @@ class InsertionIntoClouds : public testing::TestWithParam<const char*> {
     run_ = MakeSequence(Path("run"), made);
     fs::copy(Path("run/frames"), Path("clouds"));
     const std::string line = R"({"poses_file": "run/poses.csv", )" + std::string(kSameLine + 1);
-    Insert("clouds", WriteRunPlan(folder_.path(), kBox, line), "out", GetParam(), 2, 3);
+    Insert("clouds", WriteRunPlan(folder_.path(), kBox, line), "out", GetParam(), 2);
   }
 
   [[nodiscard]] fs::path Path(const std::string& name) const { return folder_.path() / name; }
+  /// Into two frames.
   void Insert(const std::string& recording,
               const fs::path& plan,
               const std::string& out,
               const std::string& format,
-              std::uint32_t first,
-              std::uint32_t last) const {
+              std::uint32_t first) const {
     const InsertChoices choices = {.recording = Path(recording),
                                    .plan = {},
                                    .directory = Path(out),
                                    .format = format,
                                    .first_frame = first,
-                                   .last_frame = last};
+                                   .last_frame = first + 1};
     (void)RunInsert(choices, ReadInsertPlan(plan, Path(recording)),
                     {[](std::uint32_t, std::uint32_t) {}, [] { return false; }});
   }
@@ -136,7 +136,7 @@ TEST_P(InsertionIntoClouds, IsARecordingToPutFurtherThingsInto) {
   nlohmann::json json = nlohmann::json::parse(ReadFileWhole(plan));
   json.erase("lidar");  // That of the first plan serves.
   WriteFileWhole(plan, json.dump());
-  Insert("out", plan, "twice", "pcd", 0, 1);
+  Insert("out", plan, "twice", "pcd", 0);
   const std::vector<RecordedFrame> frames = ReadAll(Path("twice"));
   ASSERT_EQ(frames.size(), 2U);
   ASSERT_EQ(frames[0].objects.size(), 2U);
