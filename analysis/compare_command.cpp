@@ -65,9 +65,9 @@ int RunPairs(const CompareOptions& options, const std::string& command_line) {
   const ProgressLine progress;
   const std::size_t num_frames = a->info().num_frames.value_or(0);  // 0 if not known.
   PatchPairs patches;
-  CompareAll(pairs, comparison, patches, [&](std::uint64_t num) {
-    const auto num_done = static_cast<double>(num + pairs.num_alone_a());
-    if (num_frames > 0) progress.Show("pairs", num_done / static_cast<double>(num_frames));
+  CompareAll(pairs, comparison, patches, [&](std::uint64_t num_frames_a) {
+    if (num_frames == 0) return;
+    progress.Show("pairs", static_cast<double>(num_frames_a) / static_cast<double>(num_frames));
   });
   progress.End();
   if (comparison.num_pairs() == 0) {

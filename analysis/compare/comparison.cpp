@@ -107,7 +107,9 @@ std::optional<FramePair> FramePairs::Next() {
   a_.Fill();
   b_.Fill();
   std::optional<FramePair> pair = pairing_ == Pairing::kIndex ? NextByIndex() : NextByStamp();
-  if (!pair) {
+  if (pair) {
+    pair->num_frames_a = ++num_pairs_ + a_.num_dropped;
+  } else {
     a_.DropRest();
     b_.DropRest();
   }
@@ -239,6 +241,7 @@ void CompareAll(FramePairs& pairs,
   struct Compared {
     Comparison::Part part;
     PatchPairs::Pair patches;
+    std::uint64_t num_frames_a{};
   };
   // Enough pairs in flight to keep all cores busy; more would only take memory.
   const auto max_pairs = 2 * static_cast<std::size_t>(tbb::info::default_concurrency());
@@ -252,13 +255,14 @@ void CompareAll(FramePairs& pairs,
   const auto compare = tbb::make_filter<SharedPair, std::shared_ptr<Compared>>(
       tbb::filter_mode::parallel, [&](const SharedPair& pair) {
         return std::make_shared<Compared>(Compared{comparison.Compare(pair->a, pair->b),
-                                                   {PatchesOf(pair->a), PatchesOf(pair->b)}});
+                                                   {PatchesOf(pair->a), PatchesOf(pair->b)},
+                                                   pair->num_frames_a});
       });
   const auto add = tbb::make_filter<std::shared_ptr<Compared>, void>(
       tbb::filter_mode::serial_in_order, [&](const std::shared_ptr<Compared>& compared) {
         comparison.Add(compared->part);
         patches.Add(std::move(compared->patches));
-        on_progress(comparison.num_pairs());
+        on_progress(compared->num_frames_a);
       });
   tbb::parallel_pipeline(max_pairs, read & compare & add);
 }

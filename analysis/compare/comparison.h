@@ -23,6 +23,7 @@ enum class Pairing {
 
 struct FramePair {
   RecordedFrame a, b;
+  std::uint64_t num_frames_a{};  ///< Frames of A so far, with a partner or without.
 };
 
 /// Pairs the frames of two recordings in order of time, each in at most one pair; frames without a
@@ -61,6 +62,7 @@ class FramePairs {
   Side a_, b_;
   Pairing pairing_{};
   std::int64_t tolerance_ns_{};
+  std::uint64_t num_pairs_{};
 };
 
 /// "index" or "stamp".
@@ -129,8 +131,8 @@ class Comparison {
   BinSums bins_;
 };
 
-/// Called after each pair, on one thread at a time.
-using ComparisonProgress = std::function<void(std::uint64_t num_pairs)>;
+/// Called after each pair with its num_frames_a, on one thread at a time.
+using ComparisonProgress = std::function<void(std::uint64_t num_frames_a)>;
 
 /// Compares all pairs, several at a time; the figures do not depend on the number of threads.
 /// @param patches Also of all pairs.

@@ -100,6 +100,17 @@ std::vector<RecordedFrame> NoisyPlanes(int num, double sigma_m) {
   return frames;
 }
 
+TEST(CompareAll, TellsHowFarItIsInTheFirstRecording) {
+  HeldRecording a = AtTimes({0, 100, 200, 300}), b = AtTimes({90, 140, 210, 420});
+  FramePairs pairs(a, b, Pairing::kStamp);
+  Comparison comparison({0.1}, false);
+  PatchPairs patches;
+  std::vector<std::uint64_t> done;
+  CompareAll(pairs, comparison, patches, [&](std::uint64_t num) { done.push_back(num); });
+  // The frame at 0 has no partner, those at 100 and 200 have one.
+  EXPECT_THAT(done, ElementsAre(2, 3));
+}
+
 Report ReportOf(std::vector<RecordedFrame> frames_a,
                 std::vector<RecordedFrame> frames_b,
                 bool registers) {
