@@ -59,7 +59,7 @@ TEST(OpenInput, SaysWhyAFileCannotBeRead) {
 TEST(ReadFileWhole, GivesTheBytesAsTheyAre) {
   const TemporaryDirectory directory;
   const std::filesystem::path file = directory.path() / "a";
-  for (const std::string& bytes : {std::string(), std::string("a\r\n\0\x1a\xff\n", 7)}) {
+  for (const std::string& bytes : {std::string(), std::string("a\r\n\0\x1a\xff\n\0", 8)}) {
     std::ofstream(file, std::ios::binary) << bytes;
     EXPECT_EQ(ReadFileWhole(file), bytes);
   }

@@ -60,7 +60,7 @@ TEST(ConvexBody, MeasuresTheGapBetweenFacesEdgesAndCorners) {
 }
 
 TEST(ConvexBody, MeasuresTheGapOfARotatedBox) {
-  // On its edge, the kCube reaches sqrt(1/2) towards the other one.
+  // On its edge, the cube reaches sqrt(1/2) towards the other one.
   constexpr double kEighth_rad = std::numbers::pi / 4.0;
   ExpectGap(2.0 - 0.5 - std::sqrt(0.5), kCube, At({2.0, 0.1, 0.0}, kEighth_rad), kCube);
   // Then on its corner: the plane through three neighbours of that corner is normal to the
