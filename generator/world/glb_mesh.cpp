@@ -25,6 +25,7 @@ constexpr int kVertexData = 34962;
 constexpr int kIndexData = 34963;
 constexpr std::size_t kPositionBytes = 3 * sizeof(float);
 constexpr std::size_t kColorBytes = 4 * sizeof(std::uint16_t);
+constexpr std::size_t kIndexBytes = sizeof(std::uint32_t);
 
 template <typename T>
 void AppendValue(T value, std::string& bytes) {
@@ -41,22 +42,23 @@ std::uint16_t LinearOf(std::uint8_t srgb) {
   return static_cast<std::uint16_t>(std::lround(65535.0 * linear));
 }
 
-/// The data of all parts, one kind after the other, and the accessors that find them.
-class GlbData {
+/// Where the data of all parts lie, one kind after the other, and the accessors that find them.
+class GlbLayout {
  public:
-  explicit GlbData(const ExportedWorld& exported, const LabelTable& labels) {
-    for (const Part& part : exported.parts) AddPart(part, *labels.Find(part.label));
+  explicit GlbLayout(const std::vector<Part>& parts) {
+    for (const Part& part : parts) AddPart(part.mesh);
   }
 
-  /// The chunk of the binary data.
-  [[nodiscard]] std::string Buffer() const { return positions_ + colors_ + indices_; }
+  /// The bytes of the chunk of the binary data.
+  [[nodiscard]] std::size_t num_bytes() const {
+    return num_vertices_ * (kPositionBytes + kColorBytes) + num_corners_ * kIndexBytes;
+  }
 
   [[nodiscard]] Json Views() const {
-    const std::size_t colors = positions_.size();
-    const std::size_t indices = colors + colors_.size();
-    Json views = {View(0, positions_.size(), kVertexData),
-                  View(colors, colors_.size(), kVertexData),
-                  View(indices, indices_.size(), kIndexData)};
+    const std::size_t colors = num_vertices_ * kPositionBytes;
+    const std::size_t indices = colors + num_vertices_ * kColorBytes;
+    Json views = {View(0, colors, kVertexData), View(colors, indices - colors, kVertexData),
+                  View(indices, num_bytes() - indices, kIndexData)};
     // All parts share the views of vertices, and a view that several accessors share has a stride.
     views[0]["byteStride"] = kPositionBytes;
     views[1]["byteStride"] = kColorBytes;
@@ -78,31 +80,45 @@ class GlbData {
                           {"type", shape}});
   }
 
-  void AddPart(const Part& part, const Label& label) {
-    const std::size_t num_vertices = part.mesh.vertices.size();
-    AddAccessor(0, positions_.size(), kFloat, num_vertices, "VEC3");
+  void AddPart(const Mesh& mesh) {
+    AddAccessor(0, num_vertices_ * kPositionBytes, kFloat, mesh.vertices.size(), "VEC3");
     Eigen::AlignedBox3f box;
-    for (const Eigen::Vector3f& vertex : part.mesh.vertices) box.extend(vertex);
+    for (const Eigen::Vector3f& vertex : mesh.vertices) box.extend(vertex);
     accessors_.back()["min"] = {box.min().x(), box.min().y(), box.min().z()};
     accessors_.back()["max"] = {box.max().x(), box.max().y(), box.max().z()};
-    AddAccessor(1, colors_.size(), kUnsignedShort, num_vertices, "VEC4");
+    AddAccessor(1, num_vertices_ * kColorBytes, kUnsignedShort, mesh.vertices.size(), "VEC4");
     accessors_.back()["normalized"] = true;
-    AddAccessor(2, indices_.size(), kUnsignedInt, 3 * part.mesh.triangles.size(), "SCALAR");
-    for (const Eigen::Vector3f& vertex : part.mesh.vertices) {
-      for (const float coordinate : vertex) AppendValue(coordinate, positions_);
-      for (const std::uint8_t share : label.rgb) AppendValue(LinearOf(share), colors_);
-      AppendValue(std::numeric_limits<std::uint16_t>::max(), colors_);  // Opaque.
-    }
-    for (const auto& triangle : part.mesh.triangles) {
-      for (const std::uint32_t corner : triangle) AppendValue(corner, indices_);
-    }
+    AddAccessor(2, num_corners_ * kIndexBytes, kUnsignedInt, 3 * mesh.triangles.size(), "SCALAR");
+    num_vertices_ += mesh.vertices.size();
+    num_corners_ += 3 * mesh.triangles.size();
   }
 
-  std::string positions_;
-  std::string colors_;
-  std::string indices_;
+  std::size_t num_vertices_ = 0;
+  std::size_t num_corners_ = 0;
   Json accessors_ = Json::array();
 };
+
+/// Appends positions, colours and indices of all parts, as GlbLayout has them.
+void AppendData(const std::vector<Part>& parts, const LabelTable& labels, std::string& bytes) {
+  for (const Part& part : parts) {
+    for (const Eigen::Vector3f& vertex : part.mesh.vertices) {
+      for (const float coordinate : vertex) AppendValue(coordinate, bytes);
+    }
+  }
+  for (const Part& part : parts) {
+    std::string color;
+    for (const std::uint8_t share : labels.Find(part.label)->rgb) {
+      AppendValue(LinearOf(share), color);
+    }
+    AppendValue(std::numeric_limits<std::uint16_t>::max(), color);  // Opaque.
+    for (std::size_t i = 0; i < part.mesh.vertices.size(); ++i) bytes += color;
+  }
+  for (const Part& part : parts) {
+    for (const auto& triangle : part.mesh.triangles) {
+      for (const std::uint32_t corner : triangle) AppendValue(corner, bytes);
+    }
+  }
+}
 
 /// The materials that parts have, each once, in rising order.
 std::vector<std::uint16_t> MaterialsOf(const ExportedWorld& exported) {
@@ -163,28 +179,30 @@ std::string EncodeGlbMesh(const ExportedWorld& exported,
   for (const Part& part : exported.parts) {
     Check(labels.Find(part.label) != nullptr, "a part's label is in the label table");
   }
-  const GlbData data(exported, labels);
-  const std::string buffer = data.Buffer();
+  const GlbLayout layout(exported.parts);
   Json scene = SceneJson(exported, labels, materials);
-  scene["accessors"] = data.accessors();
-  scene["bufferViews"] = data.Views();
-  scene["buffers"][0]["byteLength"] = buffer.size();
+  scene["accessors"] = layout.accessors();
+  scene["bufferViews"] = layout.Views();
+  scene["buffers"][0]["byteLength"] = layout.num_bytes();
   std::string json = scene.dump();
   json.resize((json.size() + 3) / 4 * 4, ' ');
   constexpr std::size_t kHeaders = 12 + 8 + 8;
-  const std::size_t length = kHeaders + json.size() + buffer.size();
+  const std::size_t length = kHeaders + json.size() + layout.num_bytes();
   if (length > std::numeric_limits<std::uint32_t>::max()) {
     throw InputError("--out: a .glb file must have fewer than 4294967296 bytes" + Got(length) +
                      "; choose .ply, or a shorter stretch");
   }
-  std::string bytes = "glTF";
+  std::string bytes;
+  bytes.reserve(length);
+  bytes += "glTF";
   for (const std::size_t number : {std::size_t{2}, length, json.size()}) {
     AppendValue(static_cast<std::uint32_t>(number), bytes);
   }
   bytes += "JSON" + json;
-  AppendValue(static_cast<std::uint32_t>(buffer.size()), bytes);
+  AppendValue(static_cast<std::uint32_t>(layout.num_bytes()), bytes);
   bytes.append("BIN\0", 4);
-  return bytes += buffer;
+  AppendData(exported.parts, labels, bytes);
+  return bytes;
 }
 
 }  // namespace railcast

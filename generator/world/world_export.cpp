@@ -13,6 +13,10 @@
 namespace railcast {
 namespace {
 
+// Of PLY.
+constexpr std::size_t kVertexBytes = 3 * sizeof(float);
+constexpr std::size_t kFaceBytes = 1 + 3 * 4 + 3 + 4 + 4;
+
 std::string TransformText(const Transform& transform) {
   std::string text;
   for (Eigen::Index row = 0; row < 3; ++row) {
@@ -40,8 +44,7 @@ void AppendVertices(const Part& part, std::string& bytes) {
 }
 
 void AppendFaces(const Part& part, const Label& label, std::uint32_t base, std::string& bytes) {
-  constexpr std::size_t kFaceSize = 1 + 3 * 4 + 3 + 4 + 4;
-  std::array<char, kFaceSize> stored{};
+  std::array<char, kFaceBytes> stored{};
   stored[0] = 3;
   std::memcpy(&stored[13], label.rgb.data(), 3);
   StoreAt<std::int32_t>(&stored[16], part.label);
@@ -114,6 +117,7 @@ std::string EncodePlyMesh(const ExportedWorld& exported, const LabelTable& label
                       "\nproperty list uchar int vertex_indices\nproperty uchar red\n"
                       "property uchar green\nproperty uchar blue\nproperty int label\n"
                       "property int material\nend_header\n";
+  bytes.reserve(bytes.size() + num_vertices * kVertexBytes + num_faces * kFaceBytes);
   for (const Part& part : exported.parts) AppendVertices(part, bytes);
   std::uint32_t base = 0;
   for (const Part& part : exported.parts) {
