@@ -9,7 +9,7 @@ namespace railcast {
 namespace {
 
 constexpr double kFineCell_m = 0.25;
-constexpr double kBlock_m = 4.0;
+constexpr double kBlock_m = 16.0 * kFineCell_m;
 /// A beam has passed through a surface if it ends so far behind its plane: noise and the ground's
 /// own roughness do not reach so far.
 constexpr float kBehind_m = 0.15F;
@@ -17,7 +17,9 @@ constexpr float kLeastCosineOfPassing = 0.1F;
 /// The edges of surfels are not certain.
 constexpr float kInnerPart = 0.8F;
 
-std::uint64_t KeyOf(const std::array<std::int64_t, 3>& cell) {
+using Cell = std::array<std::int64_t, 3>;
+
+std::uint64_t KeyOf(const Cell& cell) {
   constexpr std::int64_t kMiddle = 1 << 20;
   std::uint64_t key = 0;
   for (const std::int64_t coordinate : cell) {
@@ -26,14 +28,19 @@ std::uint64_t KeyOf(const std::array<std::int64_t, 3>& cell) {
   return key;
 }
 
-std::uint64_t FineCellOf(const Vector3& point_m) {
+/// The place of a fine cell among those of its block.
+std::size_t PlaceInBlock(const Cell& cell) {
+  return static_cast<std::size_t>((cell[0] & 15) << 8 | (cell[1] & 15) << 4 | (cell[2] & 15));
+}
+
+Cell FineCellOf(const Vector3& point_m) {
   const auto coordinate = [&](Eigen::Index axis) {
     return static_cast<std::int64_t>(std::floor(point_m[axis] / kFineCell_m));
   };
-  return KeyOf({coordinate(0), coordinate(1), coordinate(2)});
+  return {coordinate(0), coordinate(1), coordinate(2)};
 }
 
-/// Calls `visit(key, begin_m, end_m)` for each cell of a grid that a ray meets between two ranges,
+/// Calls `visit(cell, begin_m, end_m)` for each cell of a grid that a ray meets between two ranges,
 /// in order, with the ranges within the cell (Amanatides and Woo 1987).
 template <class Visit>
 // NOLINTNEXTLINE(readability-function-size): a ray and a grid
@@ -44,7 +51,7 @@ void WalkCells(const Vector3& origin_m,
                double edge_m,
                const Visit& visit) {
   const Vector3 start_m = origin_m + begin_m * direction;
-  std::array<std::int64_t, 3> cell{};
+  Cell cell{};
   std::array<std::int64_t, 3> step{};
   std::array<double, 3> next_m{};
   std::array<double, 3> across_m{};
@@ -61,7 +68,7 @@ void WalkCells(const Vector3& origin_m,
   for (double at_m = begin_m; at_m < end_m;) {
     const auto axis = static_cast<std::size_t>(std::ranges::min_element(next_m) - next_m.begin());
     const double leave_m = std::min(next_m[axis], end_m);
-    visit(KeyOf(cell), at_m, leave_m);
+    visit(cell, at_m, leave_m);
     at_m = next_m[axis];
     cell[axis] += step[axis];
     next_m[axis] += across_m[axis];
@@ -74,30 +81,23 @@ MovingThings::MovingThings(const std::vector<MadeSurfel>& surfels, const SurveyV
     : surfels_(surfels), cloud_(cloud), judged_(surfels.size()) {
   for (std::uint32_t i = 0; i < surfels.size(); ++i) {
     const MadeSurfel& surfel = surfels[i];
-    judged_[i].cell = FineCellOf(cloud.MeanOf(cloud.voxels()[surfel.voxel]));
+    judged_[i].cell = KeyOf(FineCellOf(cloud.MeanOf(cloud.voxels()[surfel.voxel])));
     Frames& frames = frames_of_cell_[judged_[i].cell];
     frames.first = std::min(frames.first, cloud.voxels()[surfel.voxel].first_frame);
     frames.last = std::max(frames.last, cloud.voxels()[surfel.voxel].last_frame);
     const Vector3 half_m = (surfel.half_u_m.cwiseAbs() + surfel.half_v_m.cwiseAbs()).cast<double>();
-    const auto cell_of = [](const Vector3& point_m, double edge_m, Eigen::Index axis) {
-      return static_cast<std::int64_t>(std::floor(point_m[axis] / edge_m));
-    };
-    const Vector3 low_m = surfel.center_m - half_m;
-    const Vector3 high_m = surfel.center_m + half_m;
-    const auto for_each = [&](double edge_m, const auto& use) {
-      std::array<std::int64_t, 3> cell{};
-      for (cell[0] = cell_of(low_m, edge_m, 0); cell[0] <= cell_of(high_m, edge_m, 0); ++cell[0]) {
-        for (cell[1] = cell_of(low_m, edge_m, 1); cell[1] <= cell_of(high_m, edge_m, 1);
-             ++cell[1]) {
-          for (cell[2] = cell_of(low_m, edge_m, 2); cell[2] <= cell_of(high_m, edge_m, 2);
-               ++cell[2]) {
-            use(KeyOf(cell));
-          }
+    const Cell low = FineCellOf(surfel.center_m - half_m);
+    const Cell high = FineCellOf(surfel.center_m + half_m);
+    Cell cell{};
+    for (cell[0] = low[0]; cell[0] <= high[0]; ++cell[0]) {
+      for (cell[1] = low[1]; cell[1] <= high[1]; ++cell[1]) {
+        for (cell[2] = low[2]; cell[2] <= high[2]; ++cell[2]) {
+          const Cell block = {cell[0] >> 4, cell[1] >> 4, cell[2] >> 4};
+          surfels_of_cell_[KeyOf(cell)].push_back(i);
+          cells_of_block_[KeyOf(block)].set(PlaceInBlock(cell));
         }
       }
-    };
-    for_each(kFineCell_m, [&](std::uint64_t key) { surfels_of_cell_[key].push_back(i); });
-    for_each(kBlock_m, [&](std::uint64_t key) { blocks_.insert(key); });
+    }
   }
 }
 
@@ -128,7 +128,7 @@ void MovingThings::Pass(const SurveyBeam& beam, std::uint32_t frame_index, std::
 void MovingThings::Add(const SurveyFrame& frame, std::uint32_t frame_index) {
   if (!frame.has_origins) return;
   for (const SurveyBeam& beam : frame.beams) {
-    const auto hit = frames_of_cell_.find(FineCellOf(beam.point_m));
+    const auto hit = frames_of_cell_.find(KeyOf(FineCellOf(beam.point_m)));
     if (hit == frames_of_cell_.end() || hit->second.last_hit == frame_index) continue;
     hit->second.last_hit = frame_index;
     ++hit->second.num_hits;
@@ -140,11 +140,13 @@ void MovingThings::Add(const SurveyFrame& frame, std::uint32_t frame_index) {
     const Vector3 direction = way_m / range_m;
     const double end_m = range_m - double{kBehind_m};
     WalkCells(beam.origin_m, direction, 0.0, end_m, kBlock_m,
-              [&](std::uint64_t block, double block_begin_m, double block_end_m) {
-                if (!blocks_.contains(block)) return;
+              [&](const Cell& block, double block_begin_m, double block_end_m) {
+                const auto cells = cells_of_block_.find(KeyOf(block));
+                if (cells == cells_of_block_.end()) return;
                 WalkCells(beam.origin_m, direction, block_begin_m, block_end_m, kFineCell_m,
-                          [&](std::uint64_t cell, double, double) {
-                            const auto found = surfels_of_cell_.find(cell);
+                          [&](const Cell& cell, double, double) {
+                            if (!cells->second.test(PlaceInBlock(cell))) return;
+                            const auto found = surfels_of_cell_.find(KeyOf(cell));
                             if (found == surfels_of_cell_.end()) return;
                             for (const std::uint32_t surfel : found->second) {
                               Pass(beam, frame_index, surfel);

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 #include "generator/extras/survey/surfel_maker.h"
@@ -51,6 +51,7 @@ class MovingThings {
     std::uint32_t num_passes = 0;
     std::uint32_t last_beam = 0xFFFFFFFF;  ///< Which a surfel in several cells may meet twice.
   };
+  static constexpr std::size_t kCellsOfBlock = 16 * 16 * 16;
   void Pass(const SurveyBeam& beam, std::uint32_t frame_index, std::uint32_t surfel);
 
   const std::vector<MadeSurfel>& surfels_;
@@ -58,7 +59,9 @@ class MovingThings {
   std::uint32_t num_beams_ = 0;
   std::vector<Judged> judged_;  ///< In the order of surfels.
   std::unordered_map<std::uint64_t, Frames> frames_of_cell_;
-  std::unordered_set<std::uint64_t> blocks_;  ///< Coarse cells with any surfel.
+  /// Which cells of a block of 16 x 16 x 16 have any surfel: a beam asks this of each cell that it
+  /// goes through, and most are empty.
+  std::unordered_map<std::uint64_t, std::bitset<kCellsOfBlock>> cells_of_block_;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> surfels_of_cell_;
 };
 
