@@ -46,11 +46,11 @@ std::optional<BinColumns> ColumnsNamed(std::string_view choice) {
 }
 
 /// Numbers from the middle of a file, by which layouts are judged: clouds may begin with firings
-/// into the sky. They begin with a point of any number of columns up to 8.
+/// into the sky. They begin with a point of any number of columns up to 8, or of 12 or 16.
 template <typename Number>
 std::vector<Number> SomeNumbers(std::string_view bytes) {
   constexpr std::size_t kMost = 60'000;
-  constexpr std::size_t kCommonMultiple = 840;
+  constexpr std::size_t kCommonMultiple = 1680;
   const std::size_t num = bytes.size() / sizeof(Number);
   const std::size_t first =
       num <= kMost ? 0 : (num - kMost) / 2 / kCommonMultiple * kCommonMultiple;
@@ -130,12 +130,47 @@ bool IsRing(const std::vector<float>& numbers, std::size_t column, std::size_t n
   return true;
 }
 
+/// Whether every n-th point of four numbers is a unit vector or none at all while others are far
+/// away: it is a normal, and a point has 4 n numbers.
+bool HasNormals(const std::vector<float>& numbers, std::size_t num_columns) {
+  constexpr float kFar_m = 2.0F;
+  constexpr double kRounding = 1e-3;
+  std::size_t num_far = 0;
+  for (std::size_t first = 0; first + num_columns <= numbers.size(); first += num_columns) {
+    num_far += std::abs(numbers[first]) > kFar_m || std::abs(numbers[first + 1]) > kFar_m ? 1 : 0;
+  }
+  if (2 * num_far * num_columns < numbers.size()) return false;
+  for (std::size_t begin = 4; begin < num_columns; begin += 4) {
+    std::size_t num_units = 0, num_others = 0;
+    for (std::size_t i = begin; i + 2 < numbers.size(); i += num_columns) {
+      const double length = std::hypot(numbers[i], numbers[i + 1], numbers[i + 2]);
+      if (length > 0.0) ++(std::abs(length - 1.0) < kRounding ? num_units : num_others);
+    }
+    if (num_others == 0 && num_units > 0) return true;
+  }
+  return false;
+}
+
+/// Whether every other number is the lower half of one of 64 bits, the end of its fraction: most of
+/// these are 0, huge or next to nothing. (Two numbers of 32 bits read as one of 64 always look like
+/// one, of about the size of the second.)
+bool AreDoubles(const std::vector<float>& halves) {
+  constexpr double kLeast = 1e-6;
+  constexpr double kMost = 1e6;
+  std::size_t num_numbers = 0;
+  for (std::size_t i = 0; i < halves.size(); i += 2) {
+    const double size = std::abs(halves[i]);
+    num_numbers += size > kLeast && size < kMost ? 1 : 0;
+  }
+  return num_numbers < halves.size() / 4;
+}
+
 /// The choice of other columns that fits the values of a file that is read with four; "4" if these
 /// do, or if there are too few to tell; empty if none fits.
 std::string FittingColumns(std::string_view bytes) {
   constexpr std::size_t kLeastNumbers = 256;
   constexpr double kClear = 0.9;
-  constexpr std::array<std::size_t, 5> kOthers = {3, 5, 6, 7, 8};
+  constexpr std::array<std::size_t, 7> kOthers = {3, 5, 6, 7, 8, 12, 16};
   const auto numbers = SomeNumbers<float>(bytes);
   const std::size_t num_floats = bytes.size() / sizeof(float);
   if (numbers.size() < kLeastNumbers) return "4";
@@ -152,13 +187,17 @@ std::string FittingColumns(std::string_view bytes) {
     best = num;
     least = difference;
   }
+  // Where points do not follow each other as the sensor saw them, differences tell nothing.
+  for (const std::size_t num : {8UL, 12UL, 16UL}) {
+    if (best == 4 && num_floats % num == 0 && HasNormals(numbers, num)) best = num;
+  }
   if (best == 4 ? is_four : CanBePositions(numbers, best)) {
     if (best == 5 && IsRing(numbers, 4, 5)) return "nuscenes";
     if (best == 6 && !IsRing(numbers, 4, 6)) return "waymo";
     return NumberText(best);
   }
-  const bool is_double =
-      bytes.size() % (4 * sizeof(double)) == 0 && CanBePositions(SomeNumbers<double>(bytes), 4);
+  const bool is_double = bytes.size() % (4 * sizeof(double)) == 0 && AreDoubles(numbers) &&
+                         CanBePositions(SomeNumbers<double>(bytes), 4);
   return is_double ? "float64" : "";
 }
 

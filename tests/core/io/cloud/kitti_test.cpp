@@ -7,9 +7,11 @@
 #include <cstring>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <string>
 #include <vector>
 
+#include "core/base/text.h"
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/write_file.h"
 #include "tests/core/io/example_frame.h"
@@ -220,6 +222,33 @@ TEST(KittiReader, NamesTheColumnsThatFitTheValues) {
             std::string(kNotFour) + "those of --kitti-columns float64 fit");
 }
 
+/// What PCL has of points with normals and padding, in any order.
+std::string BinNormals(std::size_t num_columns) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> place_m(-20.0F, 20.0F);
+  std::string bytes;
+  for (int point = 0; point < 500; ++point) {
+    const float angle = place_m(random);
+    std::vector<float> row = {place_m(random),
+                              place_m(random),
+                              place_m(random) / 10.0F,
+                              1.0F,
+                              std::cos(angle),
+                              std::sin(angle),
+                              0.0F};
+    row.resize(num_columns);
+    bytes.append(reinterpret_cast<const char*>(row.data()), num_columns * sizeof(float));
+  }
+  return bytes;
+}
+
+TEST(KittiReader, NamesTheColumnsOfPointsWithNormals) {
+  for (const std::size_t num : {8UL, 12UL, 16UL}) {
+    EXPECT_EQ(BinFault(BinNormals(num)),
+              std::string(kNotFour) + "those of --kitti-columns " + NumberText(num) + " fit");
+  }
+}
+
 TEST(KittiReader, TakesFiringsWithoutAReturnAndNationalGridsAsTheyAre) {
   std::string sky(15'000 * 16, '\0');
   EXPECT_EQ(BinFault(sky + BinRoom<float>(4)), "no error");
@@ -248,7 +277,8 @@ TEST(KittiReader, TakesNoNumbersOfRowsForCoordinates) {
     const auto ring = static_cast<float>(point % 16);
     std::memcpy(&bytes[16 * point], &ring, sizeof ring);
   }
-  EXPECT_TRUE(BinFault(bytes).starts_with(kNotFour)) << BinFault(bytes);
+  EXPECT_EQ(BinFault(bytes),
+            std::string(kNotFour) + "--kitti-columns N takes N numbers a point as they are");
 }
 
 TEST(KittiReader, NamesTheColumnsOfAnUnevenLength) {
