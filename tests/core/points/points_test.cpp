@@ -1,9 +1,11 @@
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <pcl/search/brute_force.h>
 #include <Eigen/Geometry>
 
 #include <cmath>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "core/points/nearest_points.h"
@@ -51,6 +53,22 @@ class AllPoints {
  private:
   pcl::search::BruteForce<pcl::PointXYZ> search_{/*sorted_results=*/true};
 };
+
+/// The file that has the code at an address.
+std::string FileAt(const void* address) {
+  Dl_info found{};
+  return dladdr(address, &found) != 0 ? found.dli_fname : "";
+}
+
+// In libpcl_kdtree each search makes a system call (nearest_points.cpp says why).
+TEST(NearestSearch, IsNotThatOfDebiansLibrary) {
+  const void* search = dlsym(RTLD_DEFAULT,
+                             "_ZNK5flann7NNIndexINS_9L2_SimpleIfEEE9knnSearchERKNS_6MatrixIfEERNS4_"
+                             "ImEERS5_mRKNS_12SearchParamsE");
+  const std::string own = FileAt(reinterpret_cast<const void*>(&FileAt));
+  ASSERT_NE(own, "");
+  EXPECT_EQ(FileAt(search), own);
+}
 
 TEST(NearestSearch, FindsWhatPclsBruteForceFinds) {
   // Enough queries for several threads.
