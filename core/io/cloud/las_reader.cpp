@@ -136,9 +136,14 @@ LasHeader ReadLasHeader(const Bytes& file) {
                    "); pdal translate with filters.reprojection makes them such");
 }
 
+/// What a file says of its unit of length.
+struct StatedUnit {
+  bool is_metre = false;
+  std::string codes{};  ///< Of coordinate systems whose units stand in EPSG's register alone.
+};
+
 /// Throws if the keys say that coordinates are no metres.
-/// @return The codes of coordinate systems whose units stand in EPSG's register alone.
-std::string CheckGeoKeys(const Bytes& keys) {
+StatedUnit CheckGeoKeys(const Bytes& keys) {
   const std::size_t num = keys.size() / 8;
   // By the key of a system, the one of its unit: of projected and of vertical coordinates.
   const std::map<int, int> units = {{3072, 3076}, {4096, 4099}};
@@ -153,14 +158,17 @@ std::string CheckGeoKeys(const Bytes& keys) {
     if (is_unit && value != 0 && value != 9001) RefuseUnit("unit EPSG:" + NumberText(value));
     values[key] = value;
   }
+  // A geographic system that no projected one is made of.
+  if (values[1024] == 0 && values[2048] != 0 && values[3072] == 0) RefuseUnit("degrees");
   constexpr int kUserDefined = 32767;
-  std::string codes;
+  StatedUnit unit_of{.is_metre = values[3076] != 0};
+  std::string& codes = unit_of.codes;
   for (const auto& [system, unit] : units) {
     const int code = values[system];
     if (code == 0 || code == kUserDefined || values[unit] != 0) continue;
     codes += (codes.empty() ? "EPSG:" : ", EPSG:") + NumberText(code);
   }
-  return codes;
+  return unit_of;
 }
 
 /// Throws unless a unit is the metre or the degree, of the geographic system below the plan.
@@ -204,39 +212,48 @@ void CheckWkt(std::string_view text) {
   RefuseUnit(is_from_centre ? "places from the earth's centre" : "degrees");
 }
 
-/// Throws if a record says that coordinates are no metres.
-/// @return As CheckGeoKeys().
-std::string CheckRecord(std::string_view user, int id, std::string_view content) {
-  if (!user.starts_with("LASF_Projection")) return {};
-  if (id == 2112) CheckWkt(content);
-  return id == 34735 ? CheckGeoKeys(Bytes(content)) : std::string();
+/// Throws if a record says that coordinates are no metres; else adds what it says.
+void CheckRecord(std::string_view user, int id, std::string_view content, StatedUnit& unit) {
+  if (!user.starts_with("LASF_Projection")) return;
+  if (id == 2112) {
+    CheckWkt(content);
+    unit.is_metre = true;
+  }
+  if (id != 34735) return;
+  const StatedUnit said = CheckGeoKeys(Bytes(content));
+  unit.is_metre = unit.is_metre || said.is_metre;
+  unit.codes += said.codes;
 }
 
 /// As CheckRecord(), of all records, also of those behind the points.
-std::string CheckRecords(const Bytes& file, const LasHeader& header) {
+StatedUnit CheckRecords(const Bytes& file, const LasHeader& header) {
   constexpr std::size_t kHead_bytes = 54;
   constexpr std::size_t kExtendedHead_bytes = 60;
-  std::string codes;
+  StatedUnit unit;
   std::uint64_t place = header.header_bytes;
   for (std::uint32_t i = 0; i < header.num_records; ++i) {
     if (place + kHead_bytes > header.points_begin) {
       throw InputError("records: must end before the points, " + NumberText(header.points_begin));
     }
     const std::size_t size = file.At<std::uint16_t>(place + 20);
-    codes += CheckRecord(file.Text(place + 2, 16), file.At<std::uint16_t>(place + 18),
-                         file.Text(place + kHead_bytes, size));
+    CheckRecord(file.Text(place + 2, 16), file.At<std::uint16_t>(place + 18),
+                file.Text(place + kHead_bytes, size), unit);
     place += kHead_bytes + size;
   }
-  if (header.minor_version < 4 || header.header_bytes < 247) return codes;
+  if (header.minor_version < 4 || header.header_bytes < 247) return unit;
   place = file.At<std::uint64_t>(235);
   const auto num_extended = file.At<std::uint32_t>(243);
   for (std::uint32_t i = 0; i < num_extended; ++i) {
-    const auto size = file.At<std::uint64_t>(place + 20);
-    codes += CheckRecord(file.Text(place + 2, 16), file.At<std::uint16_t>(place + 18),
-                         file.Text(place + kExtendedHead_bytes, size));
+    const std::uint64_t rest = file.size() - std::min(file.size(), place);
+    const auto size = rest < kExtendedHead_bytes ? 0 : file.At<std::uint64_t>(place + 20);
+    if (rest < kExtendedHead_bytes || size > rest - kExtendedHead_bytes) {
+      throw InputError("records behind the points: must lie in the file" + Got(file.size()));
+    }
+    CheckRecord(file.Text(place + 2, 16), file.At<std::uint16_t>(place + 18),
+                file.Text(place + kExtendedHead_bytes, size), unit);
     place += kExtendedHead_bytes + size;
   }
-  return codes;
+  return unit;
 }
 
 /// Where the points and what belongs to them end: behind them stand waveforms and further records.
@@ -335,7 +352,7 @@ std::vector<std::string> FieldsLeftOut(const LasHeader& header) {
 Cloud CloudOfLas(const std::string& name, std::string_view bytes) {
   const Bytes file(bytes);
   const LasHeader header = ReadLasHeader(file);
-  const std::string codes = CheckRecords(file, header);
+  const StatedUnit unit = CheckRecords(file, header);
   Cloud cloud = EmptyCloud(header);
   cloud.data.reserve(header.num_points * cloud.point_step);
   std::uint64_t num_withheld = 0;
@@ -353,8 +370,8 @@ Cloud CloudOfLas(const std::string& name, std::string_view bytes) {
       {.kind = RemarkKind::kPointsWithheld, .place = name, .number = num_withheld},
       {.kind = RemarkKind::kUnitsAssumed,
        .place = name,
-       .number = codes.empty() ? 0U : 1U,
-       .detail = codes},
+       .number = unit.is_metre && unit.codes.empty() ? 0U : 1U,
+       .detail = unit.codes.empty() ? "no coordinate system" : unit.codes},
       {.kind = RemarkKind::kFieldsLeftOut,
        .place = name,
        .number = left_out.size(),

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -77,7 +78,7 @@ TEST_F(LasFile, LeavesOutPointsThatAreWithheld) {
        std::vector<std::tuple<int, std::size_t, char>>{{0, 15, '\x80'}, {6, 15, '\x04'}}) {
     const MadeLas las{.minor_version = 4, .format = format};
     std::string bytes = las.Bytes(3);
-    bytes[las.header_bytes() + las.point_bytes() + place] |= mark;
+    bytes[las.points_begin() + las.point_bytes() + place] |= mark;
     const Cloud cloud = Read(bytes);
     EXPECT_EQ(FieldNumbers(cloud, "label"), (LasValues{1, 3}));
     EXPECT_EQ(RemarkTexts(cloud.remarks), std::vector<std::string>{"points-withheld 1"});
@@ -92,23 +93,8 @@ TEST_F(LasFile, TellsOfPointsBeyondThoseThatItsHeaderStates) {
   // What belongs to the waveforms is none.
   const MadeLas las{.minor_version = 3, .format = 4};
   std::string bytes = las.Bytes(5, 3);
-  PutNumber(bytes, 227, std::uint64_t{las.header_bytes() + 3 * las.point_bytes()});
+  PutNumber(bytes, 227, std::uint64_t{las.points_begin() + 3 * las.point_bytes()});
   EXPECT_EQ(RemarkTexts(Read(bytes).remarks), std::vector<std::string>{"fields-left-out 1"});
-}
-
-/// A record behind the header.
-std::string RecordOf(int id, const std::string& content) {
-  std::string record(54, '\0');
-  std::memcpy(&record[2], "LASF_Projection", 15);
-  PutNumber(record, 18, static_cast<std::uint16_t>(id));
-  PutNumber(record, 20, static_cast<std::uint16_t>(content.size()));
-  return record + content;
-}
-
-/// A GeoTIFF directory of one key.
-std::string GeoKey(std::uint16_t key, std::uint16_t value) {
-  const std::array<std::uint16_t, 8> words = {1, 1, 0, 1, key, 0, 1, value};
-  return {reinterpret_cast<const char*>(words.data()), sizeof words};
 }
 
 TEST_F(LasFile, IsRefusedIfItsCoordinatesAreNoMetres) {
@@ -117,21 +103,41 @@ TEST_F(LasFile, IsRefusedIfItsCoordinatesAreNoMetres) {
   };
   const std::string rule = "coordinates: must be metres in plan and height (got ";
   const std::string advice = "); pdal translate with filters.reprojection makes them such";
-  EXPECT_EQ(MessageAbout(with(RecordOf(34735, GeoKey(1024, 2)))), rule + "degrees" + advice);
-  EXPECT_EQ(MessageAbout(with(RecordOf(34735, GeoKey(3076, 9003)))),
+  EXPECT_EQ(MessageAbout(with(LasRecord(34735, GeoKey(1024, 2)))), rule + "degrees" + advice);
+  EXPECT_EQ(MessageAbout(with(LasRecord(34735, GeoKey(3076, 9003)))),
             rule + "unit EPSG:9003" + advice);
-  EXPECT_EQ(MessageAbout(with(RecordOf(2112, "GEOGCS[\"WGS 84\"]"))), rule + "degrees" + advice);
-  EXPECT_EQ(MessageAbout(with(RecordOf(2112, "PROJCS[\"X\",UNIT[\"US survey foot\",0.3]]"))),
+  EXPECT_EQ(MessageAbout(with(LasRecord(2112, "GEOGCS[\"WGS 84\"]"))), rule + "degrees" + advice);
+  EXPECT_EQ(MessageAbout(with(LasRecord(2112, "PROJCS[\"X\",UNIT[\"US survey foot\",0.3]]"))),
             rule + "US survey foot" + advice);
-  EXPECT_EQ(Read(with(RecordOf(2112, "UNIT[\"" + std::string(60'000, 'u')))).num_points(), 1U);
-  EXPECT_EQ(Read(with(RecordOf(34735, GeoKey(3076, 9001)))).num_points(), 1U);
+  EXPECT_EQ(Read(with(LasRecord(2112, "UNIT[\"" + std::string(60'000, 'u')))).num_points(), 1U);
+  EXPECT_EQ(Read(with(LasRecord(34735, GeoKey(3076, 9001)))).num_points(), 1U);
   // The unit of a system of EPSG's stands in its register: feet in New York.
-  const auto remarks = Read(with(RecordOf(34735, GeoKey(3072, 2263)))).remarks;
+  const auto remarks = Read(with(LasRecord(34735, GeoKey(3072, 2263)))).remarks;
   ASSERT_FALSE(remarks.empty());
   EXPECT_EQ(remarks.front().kind, RemarkKind::kUnitsAssumed);
   EXPECT_EQ(remarks.front().detail, "EPSG:2263");
+  EXPECT_EQ(MessageAbout(with(LasRecord(34735, GeoKey(2048, 4326)))), rule + "degrees" + advice);
+  const auto unstated = Read(MadeLas{.records = {}, .num_records = 0}.Bytes(1)).remarks;
+  ASSERT_EQ(unstated.size(), 1U);
+  EXPECT_EQ(unstated.front().kind, RemarkKind::kUnitsAssumed);
+  EXPECT_EQ(unstated.front().detail, "no coordinate system");
   EXPECT_EQ(
-      Read(with(RecordOf(2112, "PROJCS[\"X\",GEOGCS[\"Y\"],UNIT[\"metre\",1]]"))).num_points(), 1U);
+      Read(with(LasRecord(2112, "PROJCS[\"X\",GEOGCS[\"Y\"],UNIT[\"metre\",1]]"))).num_points(),
+      1U);
+}
+
+TEST_F(LasFile, IsRefusedIfRecordsBehindThePointsAreCut) {
+  const std::string whole = MadeLas{.minor_version = 4, .format = 6}.Bytes(2);
+  for (const std::uint64_t size : {std::uint64_t{11}, ~std::uint64_t{0} - 59}) {
+    std::string bytes = whole;
+    PutNumber(bytes, 235, std::uint64_t{whole.size()});
+    PutNumber(bytes, 243, std::numeric_limits<std::uint32_t>::max());
+    std::string head(60, '\0');
+    PutNumber(head, 20, size);
+    bytes += head + "ten bytes.";
+    EXPECT_EQ(MessageAbout(bytes), "records behind the points: must lie in the file (got " +
+                                       std::to_string(bytes.size()) + ")");
+  }
 }
 
 TEST_F(LasFile, IsRefusedIfItIsNoneOrCompressed) {
@@ -155,7 +161,7 @@ TEST_F(LasFile, IsRefusedIfItIsNoneOrCompressed) {
 TEST_F(LasFile, IsReadOrRefusedWithALineWhateverByteIsDamaged) {
   const std::string whole = MadeLas{.minor_version = 4,
                                     .format = 6,
-                                    .records = RecordOf(34735, GeoKey(3076, 9001)),
+                                    .records = LasRecord(34735, GeoKey(3076, 9001)),
                                     .num_records = 1}
                                 .Bytes(2);
   for (std::size_t i = 0; i < whole.size(); ++i) {

@@ -16,13 +16,28 @@ void PutNumber(std::string& bytes, std::size_t place, Number number) {
   std::memcpy(&bytes.at(place), &number, sizeof number);
 }
 
-/// A file that is written as LAS says, field by field.
+/// A record behind the header.
+inline std::string LasRecord(int id, const std::string& content) {
+  std::string record(54, '\0');
+  std::memcpy(&record[2], "LASF_Projection", 15);
+  PutNumber(record, 18, static_cast<std::uint16_t>(id));
+  PutNumber(record, 20, static_cast<std::uint16_t>(content.size()));
+  return record + content;
+}
+
+/// A GeoTIFF directory of one key.
+inline std::string GeoKey(std::uint16_t key, std::uint16_t value) {
+  const std::array<std::uint16_t, 8> words = {1, 1, 0, 1, key, 0, 1, value};
+  return {reinterpret_cast<const char*>(words.data()), sizeof words};
+}
+
+/// A file that is written as LAS says, field by field, in metres.
 struct MadeLas {
   int minor_version = 2;
   int format = 0;
   std::size_t extra_bytes = 0;
-  std::string records{};  ///< Behind the header.
-  std::uint32_t num_records = 0;
+  std::string records = LasRecord(34735, GeoKey(3076, 9001));  ///< Behind the header.
+  std::uint32_t num_records = 1;
 
   [[nodiscard]] std::size_t point_bytes() const {
     return kLasPointBytes.at(static_cast<std::size_t>(format)) + extra_bytes;
@@ -30,6 +45,7 @@ struct MadeLas {
   [[nodiscard]] std::size_t header_bytes() const {
     return minor_version == 4 ? 375 : minor_version == 3 ? 235 : 227;
   }
+  [[nodiscard]] std::size_t points_begin() const { return header_bytes() + records.size(); }
 
   /// Points 5 km east and 300 km north, 1 m apart: the number-th has class number, intensity
   /// 100 x number, is return number of 3, and was measured at 7 s + number x 0.05 s at -12 degrees.
@@ -40,7 +56,7 @@ struct MadeLas {
     bytes[24] = 1;
     bytes[25] = static_cast<char>(minor_version);
     PutNumber(bytes, 94, static_cast<std::uint16_t>(header_bytes()));
-    PutNumber(bytes, 96, static_cast<std::uint32_t>(header_bytes() + records.size()));
+    PutNumber(bytes, 96, static_cast<std::uint32_t>(points_begin()));
     PutNumber(bytes, 100, num_records);
     bytes[104] = static_cast<char>(format);
     PutNumber(bytes, 105, static_cast<std::uint16_t>(point_bytes()));

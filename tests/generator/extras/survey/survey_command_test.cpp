@@ -57,9 +57,10 @@ TEST(SurveyCommand, TakesACloudInTheWorldsAxes) {
 // A class of LAS becomes the label that scenarios have for the same thing.
 TEST(SurveyCommand, TakesPointsAndClassesOfLas) {
   const TemporaryDirectory directory;
-  std::string las = MadeLas{.minor_version = 4, .format = 6}.Bytes(900);
+  const MadeLas made{.minor_version = 4, .format = 6};
+  std::string las = made.Bytes(900);
   for (std::size_t i = 0; i < 900; ++i) {
-    char* const point = &las[375 + 30 * i];
+    char* const point = &las[made.points_begin() + 30 * i];
     const std::array<std::int32_t, 3> position_mm = {static_cast<std::int32_t>(100 * (i % 30)),
                                                      static_cast<std::int32_t>(100 * (i / 30)), 0};
     std::memcpy(point, position_mm.data(), sizeof position_mm);
@@ -79,12 +80,14 @@ TEST(SurveyCommand, TakesOneScaleOfIntensitiesForAllFiles) {
   const TemporaryDirectory directory;
   create_directory(directory.path() / "site");
   const auto write = [&](const std::string& name, std::uint16_t intensity, std::int32_t east_mm) {
-    std::string las = MadeLas{}.Bytes(900);
+    const MadeLas made;
+    std::string las = made.Bytes(900);
     for (std::size_t i = 0; i < 900; ++i) {
       const auto step = static_cast<std::int32_t>(i);
-      PutNumber(las, 227 + 20 * i, east_mm + 100 * (step % 30));
-      PutNumber(las, 231 + 20 * i, 100 * (step / 30));
-      PutNumber(las, 239 + 20 * i, intensity);
+      const std::size_t point = made.points_begin() + 20 * i;
+      PutNumber(las, point, east_mm + 100 * (step % 30));
+      PutNumber(las, point + 4, 100 * (step / 30));
+      PutNumber(las, point + 12, intensity);
     }
     WriteFileWhole(directory.path() / "site" / name, las);
   };
@@ -219,6 +222,17 @@ TEST(SurveyCommand, TakesTheRailsOfASequenceFromItsVehicle) {
   EXPECT_EQ(ended.status, 0) << ended.said;
   EXPECT_THAT(ended.said, testing::HasSubstr("the line begins "));
   EXPECT_THAT(ended.said, testing::Not(testing::HasSubstr("top of rail is taken")));
+}
+
+TEST(SurveyCommand, KeepsOutOfTheRecording) {
+  const TemporaryDirectory directory;
+  const auto run = std::filesystem::canonical(directory.path()) / "run";
+  (void)MakeSequence(run, {.object = ""});
+  WriteFileWhole(run / "frames.jsonl", "");
+  EXPECT_THAT(
+      Generate("survey " + run.string() + " --out " + (run / "out").string()),
+      ExitsWith(1, testing::StartsWith("--out: must be outside " + run.string() + ", which ")));
+  EXPECT_FALSE(exists(run / "out"));
 }
 
 TEST(SurveyCommand, RecordsWhatTheSurveyIsMadeOf) {
