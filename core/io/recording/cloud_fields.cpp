@@ -265,6 +265,31 @@ void TakeFromNearOrigin(const Cloud& cloud, const SlotPlan& plan, RecordedFrame&
   }
 }
 
+void RemarkRoundedValues(const Cloud& cloud, const SlotPlan& plan, RecordedFrame& recorded) {
+  for (const ForeignField& field : recorded.foreign) {
+    const CloudField& column = *cloud.Find(field.name);
+    if (SizeOf(column.type) < sizeof(float) || column.type == NumberType::kFloat) continue;
+    double largest = 0.0;
+    std::uint64_t num = 0;
+    VisitPoints(cloud, column, plan, recorded.frame, [&](std::uint32_t, double value) {
+      constexpr double kAllWholeNumbers = 0x1p24;
+      const double size = std::abs(value);
+      if (!(size > kAllWholeNumbers) || std::isinf(value)) return;
+      if (double{static_cast<float>(value)} != value) ++num;
+      largest = std::max(largest, size);
+    });
+    if (num == 0) continue;
+    const auto stored = static_cast<float>(largest);
+    const float next = std::nextafter(stored, std::numeric_limits<float>::infinity());
+    AddRemark(
+        {.kind = RemarkKind::kValuesRounded,
+         .place = recorded.name,
+         .number = num,
+         .detail = ShownText(field.name) + " in steps of " + ShortText(double{next - stored})},
+        recorded.remarks);
+  }
+}
+
 const CloudField* FindFieldOf(const Cloud& cloud, std::string_view name) {
   if (const CloudField* const own = cloud.Find(name)) return own;
   for (const Alias& alias : kAliases) {

@@ -43,6 +43,10 @@ void FillGridIndices(Frame& frame);
 /// @pre The frame has the positions as stored; slots without a point have NaN.
 void TakeFromNearOrigin(const Cloud& cloud, const SlotPlan& plan, RecordedFrame& recorded);
 
+/// Tells which values of RecordedFrame::foreign single precision cannot hold: whole numbers and
+/// those of float64 beyond 2^24, such as GPS times (RemarkKind::kValuesRounded).
+void RemarkRoundedValues(const Cloud& cloud, const SlotPlan& plan, RecordedFrame& recorded);
+
 /// Returns the column of the file that holds our field of this name, or null if none does. Its
 /// letters may be capitals, as in X, Y, Z.
 [[nodiscard]] const CloudField* FindFieldOf(const Cloud& cloud, std::string_view name);

@@ -35,6 +35,14 @@ bool IsScanTime(double span_s) {
   return span_s >= kMinScan_s && span_s <= kMaxScan_s;
 }
 
+/// Whether a time would be one from 2000 to 2100 if it counted microseconds since 1970. As
+/// nanoseconds it would be 11 to 47 days.
+bool AreMicrosecondsOfCalendar(double time) {
+  constexpr double kBegin_us = 946'684'800e6;
+  constexpr double kEnd_us = 4'102'444'800e6;
+  return time >= kBegin_us && time < kEnd_us;
+}
+
 /// The times of a cloud's points.
 struct PointTimes : TimeColumn {
   std::vector<double> since_first_ns;
@@ -51,7 +59,7 @@ std::optional<PointTimes> LoadTimes(const Cloud& cloud, const CloudField& column
     last = std::max(last, times[i]);
   });
   const bool is_in_s = IsFloating(column.type) && IsScanTime(last - first);
-  const double ns_per_unit = is_in_s ? kNsPerS : 1.0;
+  const double ns_per_unit = is_in_s ? kNsPerS : AreMicrosecondsOfCalendar(first) ? 1e3 : 1.0;
   if (!IsScanTime((last - first) * ns_per_unit / kNsPerS)) return std::nullopt;
   for (double& time : times) {
     if (std::isnan(time)) return std::nullopt;
@@ -119,9 +127,10 @@ SlotPlan PlanOfCloud(const Cloud& cloud, const std::string& name) {
   // A message may claim any number of rows without a point.
   if (cloud.height > 1 && cloud.width == 0) return LoosePlan(cloud, "it has no point");
   const bool is_ours = cloud.Find("ring") != nullptr && cloud.Find("column") != nullptr;
-  if (cloud.height > 1) {
-    return is_ours ? OrganisedPlan(cloud, ReturnsOf(cloud, name))
-                   : SortedRowsPlan(cloud, FindFieldOf(cloud, "ring"));
+  if (cloud.height > 1 && is_ours) return OrganisedPlan(cloud, ReturnsOf(cloud, name));
+  // Some programs give a cloud without a grid one column instead of one row.
+  if (cloud.height > 1 && cloud.width > 1) {
+    return SortedRowsPlan(cloud, FindFieldOf(cloud, "ring"));
   }
   // Points of several sensors share no grid.
   if (FindFieldOf(cloud, kSensorIndexField) != nullptr) {
@@ -166,6 +175,7 @@ RecordedFrame MakeCloudFrame(const Cloud& cloud, const std::string& name) {
   const SlotPlan plan = PlanOfCloud(cloud, name);
   FillFrame(cloud, plan, recorded);
   if (!recorded.Has("time_ns")) FillForeignTime(cloud, plan, recorded);
+  RemarkRoundedValues(cloud, plan, recorded);
   const std::vector<std::uint32_t>& times_ns = recorded.frame.time_ns;
   if (!times_ns.empty()) recorded.frame.duration_ns = *std::ranges::max_element(times_ns);
   if (!recorded.Has("column")) LeaveOutUnlikelyTimes(recorded);  // Ours may begin all at once.

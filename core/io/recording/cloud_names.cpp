@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -63,11 +64,13 @@ void SortNaturally(std::vector<fs::path>& paths) {
 struct DecimalName {
   std::string before;
   std::string whole;     ///< Without zeros in front.
-  std::string fraction;  ///< Without zeros behind.
+  std::string fraction;  ///< As written.
   std::string after;
   bool has_point{};
 
-  [[nodiscard]] auto number() const { return std::tuple(whole.size(), whole, fraction); }
+  [[nodiscard]] auto number() const {
+    return std::tuple(whole.size(), whole, fraction.substr(0, fraction.find_last_not_of('0') + 1));
+  }
 };
 
 std::optional<DecimalName> DecimalNameOf(const fs::path& file) {
@@ -83,9 +86,26 @@ std::optional<DecimalName> DecimalNameOf(const fs::path& file) {
   if (decimal.has_point) decimal.fraction = TakeAllDigits(rest);
   if (decimal.before.size() == name.size() || std::ranges::any_of(rest, IsDigit))
     return std::nullopt;
-  decimal.fraction.resize(decimal.fraction.find_last_not_of('0') + 1);
   decimal.after = rest;
   return decimal;
+}
+
+constexpr std::size_t kNanosecondDigits = 9;
+
+/// Fills up fractions that are numbers of nanoseconds without zeros in front, as pcl_ros of ROS 2
+/// writes them: the longest has nine digits, which a decimal number of such seconds never has, and
+/// no shorter one begins with 0, as one in ten decimal fractions does.
+void FillUpNanoseconds(std::vector<DecimalName>& names) {
+  std::size_t longest = 0;
+  for (const DecimalName& name : names) {
+    const std::string& fraction = name.fraction;
+    longest = std::max(longest, fraction.size());
+    if (!name.has_point || (fraction.size() > 1 && fraction.front() == '0')) return;
+  }
+  if (longest != kNanosecondDigits) return;
+  for (DecimalName& name : names) {
+    name.fraction.insert(0, kNanosecondDigits - name.fraction.size(), '0');
+  }
 }
 
 /// The decimal names of all files; nothing if some have none, none has a point, or if two are the
@@ -101,6 +121,7 @@ std::optional<std::vector<DecimalName>> DecimalNamesOf(const std::vector<fs::pat
     }
   }
   if (std::ranges::none_of(names, &DecimalName::has_point)) return std::nullopt;
+  FillUpNanoseconds(names);
   std::vector<DecimalName> sorted = names;
   std::ranges::sort(sorted, {}, &DecimalName::number);
   const auto twice = std::ranges::adjacent_find(sorted, {}, &DecimalName::number);
@@ -110,8 +131,14 @@ std::optional<std::vector<DecimalName>> DecimalNamesOf(const std::vector<fs::pat
 /// Sorts cloud files by their names: as decimal numbers where all are, else naturally.
 void SortClouds(std::vector<fs::path>& files) {
   SortNaturally(files);
-  if (!DecimalNamesOf(files)) return;
-  std::ranges::sort(files, {}, [](const fs::path& file) { return DecimalNameOf(file)->number(); });
+  const auto names = DecimalNamesOf(files);
+  if (!names) return;
+  std::vector<std::size_t> order(files.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return names->at(i).number(); });
+  std::vector<fs::path> sorted;
+  for (const std::size_t i : order) sorted.push_back(std::move(files[i]));
+  files = std::move(sorted);
 }
 
 /// Throws if two files differ in their endings alone: they are one frame in two formats.
@@ -173,17 +200,17 @@ std::vector<fs::path> CloudsOfDirectory(const fs::path& directory) {
 }
 
 std::vector<std::int64_t> StampsOfNames(const std::vector<fs::path>& files) {
-  constexpr std::size_t kDigits = 9;        // Of nanoseconds.
   constexpr std::size_t kMostSeconds = 10;  // Digits.
   const auto names = DecimalNamesOf(files);
   if (!names || files.size() < 2) return {};
   std::vector<std::int64_t> stamps_ns;
   for (const DecimalName& name : *names) {
     const bool is_time = name.before.empty() && name.after.empty() &&
-                         name.whole.size() <= kMostSeconds && name.fraction.size() <= kDigits;
+                         name.whole.size() <= kMostSeconds &&
+                         name.fraction.size() <= kNanosecondDigits;
     if (!is_time) return {};
     std::string fraction = name.fraction;
-    fraction.resize(kDigits, '0');
+    fraction.resize(kNanosecondDigits, '0');
     const auto seconds = name.whole.empty() ? 0 : ParseNumber<std::int64_t>(name.whole).value();
     if (seconds >= 9'000'000'000) return {};
     stamps_ns.push_back(seconds * kNsPerS + ParseNumber<std::int64_t>(fraction).value());

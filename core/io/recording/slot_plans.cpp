@@ -41,10 +41,41 @@ bool HasRingForEach(const StoredGrid& lines,
   return true;
 }
 
+/// The elevation of a point, in rad.
+double ElevationOf(const PointPositions& positions, std::size_t i) {
+  return static_cast<double>(
+      std::atan2(positions.z[i], std::hypot(positions.x[i], positions.y[i])));
+}
+
+/// The variance of elevations within the rows of a grid, in rad^2.
+double VarianceInRows(const StoredGrid& grid, const PointPositions& positions) {
+  double sum = 0.0;
+  std::size_t num_more = 0;
+  for (std::uint32_t row = 0; row < grid.rows; ++row) {
+    double mean_rad = 0.0;
+    std::size_t num = 0;
+    for (std::uint32_t column = 0; column < grid.columns; ++column) {
+      const std::size_t i = grid.Entry(row, column);
+      if (!positions.IsPoint(i)) continue;
+      const double off_rad = ElevationOf(positions, i) - mean_rad;
+      mean_rad += off_rad / static_cast<double>(++num);
+      sum += off_rad * (ElevationOf(positions, i) - mean_rad);
+    }
+    num_more += num > 0 ? num - 1 : 0;
+  }
+  return num_more > 0 ? sum / static_cast<double>(num_more) : 0.0;
+}
+
+/// The grid whose rows are rings: its points say so or, without rings, their elevations, which are
+/// nearly the same along a ring. Drivers may store a row for each firing.
 StoredGrid FindGrid(const Cloud& cloud, const PointPositions& positions, const CloudField* ring) {
   const StoredGrid by_rows{cloud.height, cloud.width, false};
   const StoredGrid by_columns{cloud.width, cloud.height, true};
-  if (ring == nullptr) return by_rows;
+  if (ring == nullptr) {
+    constexpr double kClear = 16.0;  // A quarter of the standard deviation.
+    const double along_columns = VarianceInRows(by_columns, positions);
+    return kClear * along_columns < VarianceInRows(by_rows, positions) ? by_columns : by_rows;
+  }
   std::vector<double> rings(cloud.num_points());
   VisitField(cloud, *ring,
              [&](std::size_t i, auto value) { rings[i] = static_cast<double>(value); });
@@ -61,8 +92,7 @@ std::vector<double> RowElevations(const StoredGrid& grid, const PointPositions& 
     for (std::uint32_t column = 0; column < grid.columns; ++column) {
       const std::size_t i = grid.Entry(row, column);
       if (!positions.IsPoint(i)) continue;
-      sum_rad += static_cast<double>(
-          std::atan2(positions.z[i], std::hypot(positions.x[i], positions.y[i])));
+      sum_rad += ElevationOf(positions, i);
       ++num;
     }
     elevations_rad.push_back(num > 0 ? sum_rad / static_cast<double>(num) : std::nan(""));
@@ -129,6 +159,7 @@ SlotPlan OrganisedPlan(const Cloud& cloud, std::uint32_t returns) {
 SlotPlan SortedRowsPlan(const Cloud& cloud, const CloudField* ring) {
   const PointPositions positions = LoadPositions(cloud);
   const StoredGrid grid = FindGrid(cloud, positions, ring);
+  if (grid.rows > kMaxRows) return LoosePlan(cloud, "it has more than 65536 rows");
   SlotPlan plan{
       .rows = grid.rows, .columns = grid.columns, .returns = 1, .slots = {}, .is_grid = true};
   const std::vector<double> elevations_rad = RowElevations(grid, positions);

@@ -59,6 +59,17 @@ TEST(CloudNames, AreStampsWhereAllAreSeconds) {
   EXPECT_THAT(StampsOfNames(Paths{"a1.5.pcd", "a2.5.pcd"}), ElementsAre());
 }
 
+TEST(CloudNames, MayHaveNanosecondsWithoutZerosInFront) {
+  EXPECT_THAT(FramesOf({"17.949999875.pcd", "17.49999872.pcd", "17.149999875.pcd", "18.0.pcd"}),
+              ElementsAre("17.49999872.pcd", "17.149999875.pcd", "17.949999875.pcd", "18.0.pcd"));
+  using Paths = std::vector<std::filesystem::path>;
+  EXPECT_THAT(StampsOfNames(Paths{"17.49999872.pcd", "17.149999875.pcd"}),
+              ElementsAre(17'049'999'872, 17'149'999'875));
+  // Decimal fractions may begin with zeros.
+  EXPECT_THAT(StampsOfNames(Paths{"17.04999987.pcd", "17.149999875.pcd"}),
+              ElementsAre(17'049'999'870, 17'149'999'875));
+}
+
 TEST(CloudNames, GiveFramesTheirStamps) {
   const TemporaryDirectory folder;
   for (const char* const name : {"1.5.ply", "1.25.ply"}) {

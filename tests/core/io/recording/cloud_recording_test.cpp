@@ -70,33 +70,36 @@ TEST(CloudRecording, TellsOfRangesThatAreNotThoseOfThePoints) {
   EXPECT_EQ(remarks[0].detail, "30 m at 10 m");
 }
 
-// As drivers for Velodyne make them: a row for each firing, a column for each laser.
+// As drivers for Velodyne make them: a row for each firing, a column for each laser. Those for
+// RoboSense leave out the rings.
 TEST(CloudRecording, TurnsAnOrganisedCloudWhoseColumnsAreRings) {
-  std::string text =
-      "VERSION 0.7\nFIELDS x y z ring\nSIZE 4 4 4 2\nTYPE F F F U\nWIDTH 3\nHEIGHT 4\n"
-      "POINTS 12\nDATA ascii\n";
-  for (int firing = 0; firing < 4; ++firing) {
-    for (const int ring : {1, 0, 2}) {
-      const std::string place = " " + NumberText(firing) + " " + NumberText(ring) + " ";
-      // The rings of lost returns are not stated everywhere.
-      text += firing == 2 && ring == 0 ? "nan nan nan 9\n" : "10" + place + NumberText(ring) + "\n";
-    }
-  }
-  const RecordedFrame recorded = ReadText("a.pcd", text);
-  const Frame& frame = recorded.frame;
-  EXPECT_TRUE(recorded.is_grid);
-  ASSERT_EQ(frame.rows, 3U);
-  ASSERT_EQ(frame.columns, 4U);
-  for (std::uint32_t ring = 0; ring < 3; ++ring) {
-    for (std::uint32_t column = 0; column < 4; ++column) {
-      const std::uint32_t slot = 4 * ring + column;
-      if (ring == 0 && column == 2) {
-        EXPECT_TRUE(std::isnan(frame.x[slot]));
-        continue;
+  for (const bool has_rings : {true, false}) {
+    std::string text = "VERSION 0.7\nFIELDS x y z " + std::string(has_rings ? "ring" : "extra") +
+                       "\nSIZE 4 4 4 2\nTYPE F F F U\nWIDTH 3\nHEIGHT 4\nPOINTS 12\nDATA ascii\n";
+    for (int firing = 0; firing < 4; ++firing) {
+      for (const int ring : {1, 0, 2}) {
+        const std::string place = " " + NumberText(firing) + " " + NumberText(ring) + " ";
+        // The rings of lost returns are not stated everywhere.
+        text +=
+            firing == 2 && ring == 0 ? "nan nan nan 9\n" : "10" + place + NumberText(ring) + "\n";
       }
-      EXPECT_EQ(frame.z[slot], static_cast<float>(ring));
-      EXPECT_EQ(frame.y[slot], static_cast<float>(column));
-      EXPECT_EQ(frame.column[slot], column);
+    }
+    const RecordedFrame recorded = ReadText("a.pcd", text);
+    const Frame& frame = recorded.frame;
+    EXPECT_TRUE(recorded.is_grid);
+    ASSERT_EQ(frame.rows, 3U) << has_rings;
+    ASSERT_EQ(frame.columns, 4U);
+    for (std::uint32_t ring = 0; ring < 3; ++ring) {
+      for (std::uint32_t column = 0; column < 4; ++column) {
+        const std::uint32_t slot = 4 * ring + column;
+        if (ring == 0 && column == 2) {
+          EXPECT_TRUE(std::isnan(frame.x[slot]));
+          continue;
+        }
+        EXPECT_EQ(frame.z[slot], static_cast<float>(ring));
+        EXPECT_EQ(frame.y[slot], static_cast<float>(column));
+        EXPECT_EQ(frame.column[slot], column);
+      }
     }
   }
 }
@@ -170,6 +173,33 @@ TEST(CloudRecording, MakesATableOfAForeignCloudWithRings) {
     EXPECT_NEAR(frame.duration_ns, 89'000'000, 4);
     EXPECT_TRUE(recorded.Has("time_ns"));
   }
+}
+
+// 2 ms and 2 s from point to point: a scan and a drive.
+TEST(CloudRecording, TakesMicrosecondsOfTheCalendarForNothingElse) {
+  for (const std::int64_t step_us : {2'000, 2'000'000}) {
+    std::vector<std::string> lines;
+    for (int i = 0; i < 50; ++i) {
+      lines.push_back("1 2 " + std::to_string(i) + " " +
+                      std::to_string(1'700'000'000'000'000 + step_us * i));
+    }
+    const RecordedFrame recorded =
+        ReadText("a.pcd", AsciiPcd("x y z timestamp", "4 4 4 8", "F F F U", lines));
+    EXPECT_EQ(recorded.Has("time_ns"), step_us == 2'000);
+    EXPECT_EQ(recorded.frame.duration_ns, step_us == 2'000 ? 98'000'000U : 0U);
+  }
+}
+
+TEST(CloudRecording, OfOneColumnIsReadAsOfOneRow) {
+  const auto lines = RingLines();
+  std::string text = AsciiPcd("x y z i ring time", "8 8 8 1 2 4", "F F F U U F", lines);
+  for (const auto& [row, column] :
+       {std::pair("\nWIDTH ", "\nHEIGHT "), {"\nHEIGHT 1\n", "\nWIDTH 1\n"}}) {
+    text.replace(text.find(row), std::string_view(row).size(), column);
+  }
+  const Frame frame = ReadText("a.pcd", text).frame;
+  EXPECT_EQ(frame.rows, 4U);
+  EXPECT_EQ(frame.columns, 90U);
 }
 
 TEST(CloudRecording, TakesNoTimeWhoseUnitIsUncertain) {

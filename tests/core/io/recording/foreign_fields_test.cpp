@@ -57,6 +57,16 @@ TEST(ForeignFields, AreTheNumbersThatAreNoneOfOursInTheirOrder) {
   EXPECT_FALSE(recorded.Has("curvature"));
 }
 
+TEST(ForeignFields, AreToldOfIfSinglePrecisionCannotHoldThem) {
+  const RecordedFrame recorded =
+      ReadPly({"double gps_seconds", "uint id", "double curvature"},
+              {"1 2 3 331234567.01 16777217 0.1", "4 5 6 331234568 16777218 0.3"});
+  EXPECT_THAT(recorded.remarks, ElementsAre(Remark{.kind = RemarkKind::kValuesRounded,
+                                                   .place = recorded.name,
+                                                   .number = 3,
+                                                   .detail = "gps_seconds in steps of 32"}));
+}
+
 // The rows are reversed: the lowest comes first.
 TEST(ForeignFields, StandInTheSlotsOfTheirPoints) {
   pcl::PointCloud<pcl::PointNormal> cloud(2, 2);
