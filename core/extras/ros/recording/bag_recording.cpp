@@ -168,6 +168,13 @@ void FillPoses(const TfPoses& poses, RecordedFrame& recorded) {
   frame.world_from_sensor_end = *end;
   frame.poses_between = std::move(between);
   recorded.has_pose = true;
+  const std::int64_t bridged_ns = std::max(poses.Bridged_ns(frame.stamp_ns),
+                                           poses.Bridged_ns(frame.stamp_ns + frame.duration_ns));
+  if (bridged_ns == 0) return;
+  AddRemark({.kind = RemarkKind::kPosesBridged,
+             .place = recorded.name,
+             .detail = ShortText(double(bridged_ns) / kNsPerS) + " s"},
+            recorded.remarks);
 }
 
 /// How the messages of a topic with clouds are read.
@@ -211,6 +218,7 @@ class CloudTopicRecording : public Recording {
                        [&] { return std::make_shared<const TfPoses>(*bag_, frame_id_); })) {
     info_.source = source;
     info_.kind = "bag of ROS 2";
+    if (poses_->left_out().number > 0) info_.remarks->Add(poses_->left_out());
     bag_->Select({topic});
   }
 

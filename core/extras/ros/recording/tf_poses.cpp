@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/median.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/extras/ros/messages/cdr.h"
@@ -24,7 +25,15 @@ std::string PlainFrame(const std::string& frame) {
   return frame.starts_with('/') ? frame.substr(1) : frame;
 }
 
-/// Calls `visit(transform, is_static)` for each transform of the bag.
+/// How a topic says that its transforms hold for all times. Latched ones may move nevertheless.
+enum class Standing { kNo, kIfEqual, kYes };
+
+Standing StandingOf(const bag::BagTopic& topic) {
+  if (topic.name.ends_with("/tf_static")) return Standing::kYes;
+  return topic.is_latched ? Standing::kIfEqual : Standing::kNo;
+}
+
+/// Calls `visit(transform, standing)` for each transform of the bag.
 template <typename Visit>
 void ForEachTransform(bag::BagReader& bag, const Visit& visit) {
   std::vector<std::size_t> wanted;
@@ -34,14 +43,21 @@ void ForEachTransform(bag::BagReader& bag, const Visit& visit) {
   bag.Select(wanted);
   while (const auto message = bag.Next()) {
     const bag::BagTopic& topic = bag.topics()[message->topic];
-    const bool is_static = topic.is_latched || topic.name.ends_with("/tf_static");
+    const Standing standing = StandingOf(topic);
     AtPlace(ShownText(topic.name) + ": ", [&] {
       for (const auto& transform : ros::FromCdr<ros::TfMessage>(message->data).transforms) {
-        visit(transform, is_static);
+        visit(transform, standing);
       }
     });
   }
 }
+
+/// What all transforms to a frame say.
+struct ToFrame {
+  std::string parent;
+  bool is_static{};
+  ros::RosTransform last;
+};
 
 }  // namespace
 
@@ -51,10 +67,15 @@ TfPoses::TfPoses(bag::BagReader& bag, const std::string& frame) {
 }
 
 void TfPoses::ReadLinks(bag::BagReader& bag, const std::string& frame) {
-  std::map<std::string, std::pair<std::string, bool>> parents;
-  ForEachTransform(bag, [&](const ros::TransformStamped& transform, bool is_static) {
-    parents.insert_or_assign(PlainFrame(transform.child_frame_id),
-                             std::pair(PlainFrame(transform.header.frame_id), is_static));
+  std::map<std::string, ToFrame> parents;
+  ForEachTransform(bag, [&](const ros::TransformStamped& transform, Standing standing) {
+    ToFrame to{PlainFrame(transform.header.frame_id), standing != Standing::kNo,
+               transform.transform};
+    const auto [known, is_new] = parents.try_emplace(PlainFrame(transform.child_frame_id), to);
+    if (standing == Standing::kIfEqual && !is_new) {
+      to.is_static = known->second.is_static && known->second.last == to.last;
+    }
+    known->second = std::move(to);
     if (parents.size() > kMaxFrames) {
       throw InputError("must have at most " + NumberText(kMaxFrames) + " frames of reference");
     }
@@ -62,10 +83,10 @@ void TfPoses::ReadLinks(bag::BagReader& bag, const std::string& frame) {
   std::vector<TfLink> links;
   std::string child = frame;
   for (auto found = parents.find(child); found != parents.end(); found = parents.find(child)) {
-    const auto& [parent, is_static] = found->second;
     if (links.size() == parents.size()) {
       throw InputError("frames of reference must not go in circles (got " + Quoted(frame) + ")");
     }
+    const auto& [parent, is_static, last] = found->second;
     links.push_back({child, parent, is_static, {}});
     child = parent;
   }
@@ -78,10 +99,16 @@ void TfPoses::ReadLinks(bag::BagReader& bag, const std::string& frame) {
 
 void TfPoses::ReadPoses(bag::BagReader& bag) {
   std::size_t num_poses = 0;
-  ForEachTransform(bag, [&](const ros::TransformStamped& transform, bool) {
+  ForEachTransform(bag, [&](const ros::TransformStamped& transform, Standing) {
     const auto link =
         std::ranges::find(links_, PlainFrame(transform.child_frame_id), &TfLink::child);
-    if (link == links_.end() || PlainFrame(transform.header.frame_id) != link->parent) return;
+    if (link == links_.end()) return;
+    if (const std::string parent = PlainFrame(transform.header.frame_id); parent != link->parent) {
+      if (left_out_.number++ > 0) return;
+      left_out_.detail =
+          Quoted(link->child) + " from " + Quoted(parent) + ", not from " + Quoted(link->parent);
+      return;
+    }
     const auto& [position, rotation] = transform.transform;
     TimedPose pose{transform.header.stamp.sec * kNsPerS + transform.header.stamp.nanosec,
                    {position.x, position.y, position.z},
@@ -98,7 +125,16 @@ void TfPoses::ReadPoses(bag::BagReader& bag) {
       throw InputError("must have at most " + NumberText(kMaxPoses) + " transforms");
     }
   });
-  for (TfLink& link : links_) std::ranges::stable_sort(link.poses, {}, &TimedPose::time_ns);
+  for (TfLink& link : links_) {
+    std::ranges::stable_sort(link.poses, {}, &TimedPose::time_ns);
+    std::vector<double> steps_ns;
+    for (std::size_t i = 1; i < link.poses.size(); ++i) {
+      steps_ns.push_back(static_cast<double>(link.poses[i].time_ns - link.poses[i - 1].time_ns));
+    }
+    constexpr double kTimesMedian = 10.0;
+    const double usual_ns = steps_ns.empty() ? 0.0 : MedianOf(steps_ns);
+    link.most_ns = std::max(kNsPerS, std::lround(kTimesMedian * usual_ns));
+  }
 }
 
 std::optional<Transform> TfPoses::PoseOf(const TfLink& link, std::int64_t time_ns) {
@@ -136,6 +172,20 @@ std::optional<Transform> TfPoses::At(std::int64_t time_ns) const {
     fixed_from_frame = fixed_from_frame * *parent_from_child;
   }
   return fixed_from_frame;
+}
+
+std::int64_t TfPoses::Bridged_ns(std::int64_t time_ns) const {
+  std::int64_t bridged_ns = 0;
+  for (const TfLink& link : links_) {
+    if (link.is_static) continue;
+    const auto after = std::ranges::lower_bound(link.poses, time_ns, {}, &TimedPose::time_ns);
+    if (after == link.poses.end() || after == link.poses.begin()) continue;
+    const std::int64_t step_ns = after->time_ns - (after - 1)->time_ns;
+    if (after->time_ns > time_ns && step_ns > link.most_ns) {
+      bridged_ns = std::max(bridged_ns, step_ns);
+    }
+  }
+  return bridged_ns;
 }
 
 std::int64_t TfPoses::Beyond_ns(std::int64_t time_ns) const {

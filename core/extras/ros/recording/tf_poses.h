@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/extras/ros/bag/bag.h"
+#include "railcast/remark.h"
 #include "railcast/transform.h"
 
 namespace railcast {
@@ -31,6 +32,12 @@ class TfPoses {
   /// How long before the first or after the last of all transforms that move something a time is; 0
   /// within them, and if there are none.
   [[nodiscard]] std::int64_t Beyond_ns(std::int64_t time_ns) const;
+  /// How far apart the transforms are between which a time lies, if any are unusually far: more
+  /// than 1 s and ten times the median of their link. Otherwise 0.
+  [[nodiscard]] std::int64_t Bridged_ns(std::int64_t time_ns) const;
+  /// How many transforms were left out because they lead to a frame from another one than the last
+  /// transform to it; for messages, the first such pair.
+  [[nodiscard]] const Remark& left_out() const { return left_out_; }
 
  private:
   struct TimedPose {
@@ -44,6 +51,7 @@ class TfPoses {
     std::string parent;
     bool is_static{};
     std::vector<TimedPose> poses;  ///< By time; if static, the last alone.
+    std::int64_t most_ns{};        ///< Transforms that are further apart are unusually far.
   };
 
   void ReadLinks(bag::BagReader& bag, const std::string& frame);
@@ -51,6 +59,7 @@ class TfPoses {
   [[nodiscard]] static std::optional<Transform> PoseOf(const TfLink& link, std::int64_t time_ns);
 
   std::vector<TfLink> links_;  ///< From the frame upwards.
+  Remark left_out_{.kind = RemarkKind::kTransformsLeftOut, .place = {}, .number = 0};
 };
 
 }  // namespace railcast

@@ -133,6 +133,50 @@ TEST(BagRecording, HasThePosesThatItsTransformsSay) {
   EXPECT_FALSE(frames[2].has_pose);
 }
 
+TEST(BagRecording, MovesByLatchedTransformsUnlessAllAreEqual) {
+  for (const bool is_moving : {true, false}) {
+    MadeBag bag;
+    for (int i = 0; i < 3; ++i) {
+      bag.Link("/latched/tf", "map", "lidar", i * kSecond_ns,
+               {{is_moving ? 10.0 * i : 10.0, 0, 0}, {}});
+      bag.Add("/lidar/points", i * kSecond_ns, CloudOf(kBagPoints, i * kSecond_ns));
+    }
+    const auto frames = ReadAll(bag.Closed());
+    ASSERT_EQ(frames.size(), 3U);
+    EXPECT_EQ(frames[0].frame.world_from_sensor.translation().x(), is_moving ? 0.0 : 10.0);
+    EXPECT_EQ(frames[2].frame.world_from_sensor.translation().x(), is_moving ? 20.0 : 10.0);
+  }
+}
+
+TEST(BagRecording, TellsOfPosesBetweenTransformsThatAreFarApart) {
+  MadeBag bag;
+  for (const std::int64_t tenths : {0, 1, 2, 3, 33, 34}) {
+    bag.Link("/tf", "map", "lidar", tenths * kSecond_ns / 10, {{1.0 * double(tenths), 0, 0}, {}});
+  }
+  for (const std::int64_t tenths : {2, 18, 33}) {
+    bag.Add("/lidar/points", 0, CloudOf(kBagPoints, tenths * kSecond_ns / 10));
+  }
+  const auto recording = OpenRecording(bag.Closed());
+  const auto frames = ReadAll(*recording);
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_NEAR(frames[1].frame.world_from_sensor.translation().x(), 18.0, 1e-9);
+  EXPECT_EQ(recording->info().remarks->List(),
+            (std::vector<Remark>{
+                {RemarkKind::kPosesBridged, bag.file().string() + ": message 1", 1, "3 s"}}));
+}
+
+TEST(BagRecording, TellsOfTransformsFromAnotherFrameThanTheLast) {
+  MadeBag bag;
+  bag.Link("/tf", "odom", "lidar", 0, {{1.0, 0, 0}, {}});
+  bag.Link("/tf", "map", "lidar", 0, {{2.0, 0, 0}, {}});
+  bag.Add("/lidar/points", 0, CloudOf(kBagPoints, 0));
+  const auto recording = OpenRecording(bag.Closed());
+  EXPECT_EQ(ReadAll(*recording).at(0).frame.world_from_sensor.translation().x(), 2.0);
+  EXPECT_EQ(recording->info().remarks->List(),
+            (std::vector<Remark>{{RemarkKind::kTransformsLeftOut, "", 1,
+                                  "\"lidar\" from \"odom\", not from \"map\""}}));
+}
+
 // Transforms of a simulated clock, clouds of the computer's.
 TEST(BagRecording, TellsOfCloudsWithAnotherClockThanTheTransforms) {
   MadeBag bag;

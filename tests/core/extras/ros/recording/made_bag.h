@@ -72,11 +72,12 @@ class MadeBag {
            std::int64_t time_ns,
            const Message& message,
            std::string_view type = Message::kName) {
-    const std::size_t index = writer_->Add({.name = topic,
-                                            .type = std::string(type),
-                                            .definition = {},
-                                            .hash = {},
-                                            .is_latched = topic == "/tf_static"});
+    const std::size_t index =
+        writer_->Add({.name = topic,
+                      .type = std::string(type),
+                      .definition = {},
+                      .hash = {},
+                      .is_latched = topic == "/tf_static" || topic.starts_with("/latched/")});
     writer_->Write({index, time_ns, ros::ToCdr(message)});
   }
   void Link(const std::string& topic,
