@@ -113,6 +113,18 @@ std::optional<std::string> OusterDecoder::RefuseColumns(std::span<const char> pa
       return "column " + NumberText(i) + ": measurement id must be < " +
              NumberText(metadata_.columns_per_frame) + Got(column.measurement_id);
     }
+    if (layout_.is_legacy() && column.measurement_id > 0) {
+      // Other programs may write 0; another mode of the sensor has twice or half as many columns.
+      const double ticks = layout_.EncoderTicksOf(payload, i);
+      const double expected =
+          double{kOusterTicks} * column.measurement_id / metadata_.columns_per_frame;
+      constexpr double kMostOff = 0.25;
+      if (ticks > 0.0 && std::abs(ticks - expected) > kMostOff * expected) {
+        return "column " + NumberText(i) + ": encoder count must be near " +
+               NumberText(std::round(expected)) +
+               " by its measurement id and the metadata's lidar mode" + Got(ticks);
+      }
+    }
     if (column.time_ns > kMostTime_ns) {
       return "column " + NumberText(i) + ": time must be <= " + NumberText(kMostTime_ns) + " ns" +
              Got(column.time_ns);

@@ -20,7 +20,6 @@ namespace {
 constexpr double kGravity_mps2 = 9.80665;
 
 constexpr std::int64_t kImuPeriod_ns = 10'000'000;
-constexpr std::uint32_t kEncoderTicksPerTurn = 90'112;
 
 class OusterEncoder final : public FrameEncoder {
  public:
@@ -98,7 +97,7 @@ class OusterEncoder final : public FrameEncoder {
                    .measurement_id = static_cast<std::uint16_t>(number),
                    .is_valid = is_valid},
                   number % metadata_.columns_per_packet, *packet_turn_,
-                  number * (kEncoderTicksPerTurn / metadata_.columns_per_frame), packet_);
+                  number * (kOusterTicks / metadata_.columns_per_frame), packet_);
   }
 
   void EncodeColumn(const Frame& frame, std::uint32_t column) {

@@ -157,6 +157,10 @@ OusterColumn OusterLayout::ColumnOf(std::span<const char> packet, std::size_t co
           .is_valid = is_valid};
 }
 
+std::uint32_t OusterLayout::EncoderTicksOf(std::span<const char> packet, std::size_t column) const {
+  return LoadAt<std::uint32_t>(packet.data() + PlaceOfColumn(column) + kEncoderPlace);
+}
+
 void OusterLayout::Store(const OusterColumn& column,
                          std::size_t place,
                          std::uint32_t frame_id,

@@ -23,6 +23,7 @@ struct CaptureMetadata {
   std::string fault{};                       ///< Why not: "file: /lidar_mode: missing".
   /// Called if a packet of an AT128 is seen; null if there is nothing to look for.
   LoadAt128Correction load_correction{};
+  bool is_named = false;  ///< Whether the user says that it is the sensor's.
 };
 
 /// Reads the metadata of an Ouster sensor.

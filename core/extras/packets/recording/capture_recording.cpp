@@ -128,7 +128,7 @@ std::optional<DatagramPlace> FindCaptureWithMore(const std::filesystem::path& so
     const auto [metadata, sensor] = SplitCaptureSuffix(std::string_view(text).substr(mark + 1));
     CaptureMetadata beside = MetadataBeside(file);
     if (!metadata.empty()) {
-      beside = {.file = metadata, .metadata = ReadOusterMetadata(metadata)};
+      beside = {.file = metadata, .metadata = ReadOusterMetadata(metadata), .is_named = true};
     }
     DatagramPlace place = PlaceOfFile(file, source, beside);
     place.sensor = ParseSender(sensor);

@@ -8,6 +8,7 @@
 #include <string>
 #include <tuple>
 #include <utility>
+#include <variant>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -157,6 +158,12 @@ std::vector<CaptureSensor> Chosen(const std::vector<CaptureSensor>& sensors,
   return found;
 }
 
+/// Whether the sensor is an Ouster's whose packets do not state its serial number.
+bool IsLegacyOuster(const CaptureSensor& sensor) {
+  const auto* const decoder = std::get_if<OusterDecoder>(&sensor.decoder);
+  return decoder != nullptr && decoder->layout().is_legacy();
+}
+
 std::string SendersText(const std::vector<CaptureSensor>& sensors) {
   std::string names;
   for (const CaptureSensor& sensor : sensors) {
@@ -199,8 +206,13 @@ std::vector<CaptureSensor> FindSensors(const DatagramPlace& place) {
 CaptureSensor FindSensor(const DatagramPlace& place) {
   std::vector<CaptureSensor> sensors = FindSensors(place);
   std::vector<CaptureSensor> chosen = place.sensor ? Chosen(sensors, *place.sensor) : sensors;
-  if (chosen.size() == 1) return std::move(chosen.front());
   const std::string holds = ShownPath(place.source) + ": holds " + SendersText(sensors);
+  if (chosen.size() == 1 && IsLegacyOuster(chosen.front()) && !place.beside.is_named &&
+      std::ranges::count_if(sensors, &IsLegacyOuster) > 1) {
+    throw InputError(holds + "; their packets do not say whose metadata " +
+                     ShownPath(place.beside.file) + " has: CAPTURE:METADATA:ADDRESS does");
+  }
+  if (chosen.size() == 1) return std::move(chosen.front());
   if (!place.sensor || chosen.size() > 1) throw InputError(holds + "; --sensor picks one");
   throw InputError(
       holds + "; must be one of them (got " +

@@ -175,6 +175,24 @@ TEST(OusterDecoder, OrdersPacketsOfUnmeasuredColumnsByTheirNumbers) {
   EXPECT_FALSE(decoder.MarkOf(packet).has_number);
 }
 
+// LEGACY packets do not say which metadata are theirs.
+TEST(OusterDecoder, RefusesLegacyPacketsOfAnotherMode) {
+  const MadePackets made("LEGACY");
+  const OusterDecoder decoder(made.metadata());
+  const OusterLayout layout(made.metadata());
+  std::vector<char> packet = made.Packet(1, 0);
+  EXPECT_EQ(decoder.Refuse(packet), std::nullopt);
+  const auto store = [&](std::uint32_t ticks) {
+    layout.Store({.measurement_id = 1, .is_valid = true}, 1, 1, ticks, packet);
+  };
+  store(180);
+  EXPECT_EQ(decoder.Refuse(packet), std::nullopt);
+  store(88);
+  EXPECT_EQ(decoder.Refuse(packet),
+            "column 1: encoder count must be near 176 by its measurement id and the metadata's "
+            "lidar mode (got 88)");
+}
+
 TEST(OusterDecoder, SaysWhyAPacketIsRefused) {
   const MadePackets made;
   const auto refusal = [&](const auto& change) {

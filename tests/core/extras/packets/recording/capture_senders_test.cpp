@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -8,6 +9,8 @@
 #include "core/extras/packets/recording/capture_sensor.h"
 #include "core/extras/packets/recording/turn_reader.h"
 #include "core/io/recording/source_choice.h"
+#include "core/io/write_file.h"
+#include "tests/core/extras/packets/ouster/made_ouster.h"
 #include "tests/core/extras/packets/pcap/made_capture.h"
 #include "tests/core/extras/packets/velodyne/made_scan.h"
 #include "tests/core/io/message_of.h"
@@ -81,6 +84,20 @@ TEST(CaptureSenders, AreNamedUntilOneIsChosen) {
   ASSERT_EQ(remarks.size(), 1U);
   EXPECT_EQ(remarks[0].kind, RemarkKind::kOtherSenders);
   EXPECT_EQ(remarks[0].number, front.packets.size() + rear.packets.size());
+}
+
+TEST(CaptureSenders, OfLegacyOusterPacketsNeedTheNameOfTheirMetadata) {
+  const TemporaryDirectory folder;
+  const std::string text = MadeOusterMetadataText("LEGACY");
+  const auto packets = DataTexts(MadeOuster(text).Encode({0, 1}));
+  const std::string file =
+      WriteSent(folder.path() / "a.pcap", {{packets}, {packets, '\xCA'}}).string();
+  const std::string metadata = (folder.path() / "a.json").string();
+  WriteFileWhole(metadata, text);
+  EXPECT_THAT(FaultOfCapture(file + ":192.168.1.202"),
+              testing::EndsWith("; their packets do not say whose metadata " + metadata +
+                                " has: CAPTURE:METADATA:ADDRESS does"));
+  EXPECT_EQ(FaultOfCapture(file + ":" + metadata + ":192.168.1.202"), "no error");
 }
 
 TEST(CaptureSenders, AtOneAddressAreToldByTheirPorts) {
