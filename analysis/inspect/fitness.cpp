@@ -28,12 +28,13 @@ JobFitness FiringsOf(const RecordingLook& seen, const RecordingInfo& info) {
       "its firings are not known: " + (seen.sensor.found ? seen.why_no_grid : seen.sensor.why_not)};
 }
 
-std::string WithPoses(const RecordingLook& seen, std::string needs) {
+std::string WithPoses(const RecordingLook& seen, const RecordingInfo& info, std::string needs) {
   if (seen.num_with_pose == seen.num_frames) return needs;
   if (!needs.empty()) needs += "; ";
-  return needs +
-         "since it has no poses, the plan needs world.recording.poses_file, or poses of "
-         "standing or registered";
+  return needs + "since " + (info.has_kitti_labels ? "its clouds have" : "it has") +
+         " no poses, the plan needs " +
+         (info.has_kitti_labels ? "poses.txt and calib.txt beside them, " : "") +
+         "world.recording.poses_file, or poses of standing or registered";
 }
 
 JobFitness Insertion(const RecordingLook& seen, const RecordingInfo& info, bool is_weather) {
@@ -44,7 +45,7 @@ JobFitness Insertion(const RecordingLook& seen, const RecordingInfo& info, bool 
     firings.fitness = kWithOption;
     firings.why = "--points-alone, since " + firings.why;
   }
-  firings.why = WithPoses(seen, firings.why);
+  firings.why = WithPoses(seen, info, firings.why);
   if (!firings.why.empty()) firings.fitness = kWithOption;
   return firings;
 }

@@ -257,6 +257,9 @@ PoseFile ReadNumberLines(const fs::path& file) {
     const auto words = Words(line);
     if (!words.empty() && words[0].starts_with('#')) continue;
     const bool is_first = poses.world_from_sensor.empty();
+    if (is_first && line.find(',') != std::string::npos) {
+      throw InputError(place + ": numbers must be separated by blanks");
+    }
     if (is_first ? words.size() == kTumNumbers : !poses.stamps_ns.empty()) {
       ReadTumLine(words, place, poses);
     } else {
@@ -381,6 +384,12 @@ KittiPoses ReadKittiPoses(const fs::path& source, std::size_t num_frames) {
   KittiPoses read;
   const auto camera_from_sensor = ReadCalibration(folder / "calib.txt");
   const fs::path poses = folder / "poses.txt";
+  if (exists(poses) && !camera_from_sensor) {
+    Publish(
+        {.kind = RemarkKind::kFilesLeftOut,
+         .place = ShownPath(poses),
+         .detail = "calib.txt beside it must have Tr, the sensor's pose in the axes of camera 0"});
+  }
   if (exists(poses) && camera_from_sensor) {
     std::size_t number = 1;
     for (const std::string& line : KittiLinesIn(poses, num_frames)) {

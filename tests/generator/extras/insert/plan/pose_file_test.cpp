@@ -153,6 +153,20 @@ TEST(PoseFile, MustHaveTheTimesOfTheFramesSinceTheFirst) {
             "frame 1, which came after 0.151 s)");
 }
 
+TEST(KittiPoses, AreLeftOutWithARemarkWithoutTheCalibrationOfTheSensor) {
+  const TemporaryDirectory folder;
+  WriteFileWhole(folder.path() / "poses.txt", kKittiLines);
+  std::vector<Remark> remarks;
+  SetRemarkReceiver([&](const Remark& remark) { remarks.push_back(remark); });
+  EXPECT_THAT(ReadKittiPoses(folder.path(), 2).world_from_sensor, testing::IsEmpty());
+  SetRemarkReceiver(nullptr);
+  ASSERT_EQ(remarks.size(), 1U);
+  EXPECT_EQ(remarks[0].Text(),
+            "1 file left out: calib.txt beside it must have Tr, the sensor's "
+            "pose in the axes of camera 0 (in " +
+                (folder.path() / "poses.txt").string() + ")");
+}
+
 TEST(PoseFile, MustHaveAxesOfWhichZIsUp) {
   EXPECT_EQ(FaultOf("a.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0.1 0 0 1 8\n"),
             "a.txt: poses: must not climb more than 1 m in 2 m (got 8 m in 8.001 m): are the axes "
@@ -171,6 +185,8 @@ TEST(PoseFile, MustHaveAxesOfWhichZIsUp) {
 TEST(PoseFile, SaysWhatIsWrong) {
   EXPECT_EQ(FaultOf("a.txt", "1 0 0 0 0 1 0 0 0 0 2 0\n"),
             "a.txt:1: must be the 12 numbers of a pose");
+  EXPECT_EQ(FaultOf("a.txt", "1700000000.0,0,0,2,0,0,0,1\n"),
+            "a.txt:1: numbers must be separated by blanks");
   EXPECT_EQ(FaultOf("a.csv", "t,x\n"), "a.csv:1: must be stamp_ns,x,y,z,qx,qy,qz,qw (got t,x)");
   EXPECT_EQ(FaultOf("a.csv", "stamp_ns,x,y,z,qx,qy,qz,qw\nnow,0,0,0,0,0,0,1\n"),
             "a.csv:2: stamp_ns: must be a whole number of at most 4.5e18 (got now)");
