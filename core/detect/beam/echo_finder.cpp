@@ -176,7 +176,8 @@ void EchoFinder::SamplePeaks(std::span<const Component> components) {
     kernels_.sample_wave(wave_, first_m, step_m, num_samples, samples_.data());
     for (std::size_t k = 1; k + 1 < num_samples; ++k) {
       const float y = samples_[k];
-      if (!(y > samples_[k - 1] && y >= samples_[k + 1] && samples_[k + 1] > 0.0F)) continue;
+      const float least = std::min(samples_[k - 1], samples_[k + 1]);
+      if (!(y > samples_[k - 1] && y >= samples_[k + 1] && least > 0.0F)) continue;
       const float left = std::log(samples_[k - 1] / y);
       const float right = std::log(samples_[k + 1] / y);
       const float offset = 0.5F * (left - right) / (left + right);
@@ -187,13 +188,9 @@ void EchoFinder::SamplePeaks(std::span<const Component> components) {
   }
 }
 
-void EchoFinder::DropWeakPeaks() {
-  const float strongest =
-      std::max_element(peaks_.begin(), peaks_.end(), [](const WavePeak& a, const WavePeak& b) {
-        return a.value < b.value;
-      })->value;
-  const float least = std::min(strongest, least_ratio_);
-  std::erase_if(peaks_, [&](const WavePeak& peak) { return peak.value < least; });
+float EchoFinder::LeastPeak() const {
+  const auto strongest = std::ranges::max_element(peaks_, {}, &WavePeak::value);
+  return std::min(strongest->value, least_ratio_);
 }
 
 // Every component belongs to the nearest peak.
@@ -261,12 +258,15 @@ void EchoFinder::EchoesOf(std::size_t beam, std::vector<Echo>& echoes) {
     MeltShallowPeaks();
     TakeEnergies(components);
   }
-  DropWeakPeaks();
+  // What belongs to a peak that is too weak is in no echo, however near the next one is.
+  const float least = LeastPeak();
   const Component* begin = components.data();
   const Component* const last = begin + components.size();
   for (std::size_t i = 0; i < peaks_.size(); ++i) {
     const Component* const end_of_peak = EndOfPeak(i, begin, last);
-    if (begin != end_of_peak) echoes.push_back(Gather(peaks_[i], begin, end_of_peak));
+    if (begin != end_of_peak && peaks_[i].value >= least) {
+      echoes.push_back(Gather(peaks_[i], begin, end_of_peak));
+    }
     begin = end_of_peak;
   }
 }

@@ -81,7 +81,7 @@ class EchoFinder {
   void ClimbTogether(std::span<Climb> climbs);
   void SamplePeaks(std::span<const Component> components);
   void AddPeak(const WavePeak& peak);
-  void DropWeakPeaks();
+  [[nodiscard]] float LeastPeak() const;
   [[nodiscard]] bool HasValley(const WavePeak& near, const WavePeak& far);
   void MeltShallowPeaks();
   void TakeEnergies(std::span<const Component> components);

@@ -73,6 +73,30 @@ TEST(EchoFinder, FindsNothingInNothing) {
   EXPECT_TRUE(Find({}, true).empty());
 }
 
+// A surface behind a gap in a hedge, for example.
+TEST(EchoFinder, PutsNothingOfAPeakThatIsTooWeakIntoAnother) {
+  for (const bool is_sampled : {false, true}) {
+    for (const EchoSignal signal : {EchoSignal::kPeak, EchoSignal::kEnergy}) {
+      const auto echoes = Find({At(30.0F), At(200.0F, 0.2F, 1)}, is_sampled, true, signal);
+      ASSERT_EQ(echoes.size(), 1U);
+      EXPECT_EQ(echoes[0].true_range_m, 30.0F);
+      EXPECT_EQ(echoes[0].intensity, 0.1F);
+      EXPECT_EQ(echoes[0].share, 0.25F);
+    }
+  }
+}
+
+// In dense fog a wave is 0 where floats end.
+TEST(EchoFinder, FindsNoPeakBesideWhatIsTooWeakToBeCounted) {
+  for (const EchoSignal signal : {EchoSignal::kPeak, EchoSignal::kEnergy}) {
+    for (const float power : {1e-38F, 1e-42F, 1e-45F}) {
+      for (const Echo& echo : Find({At(30.0F, power), At(30.5F, power)}, true, true, signal)) {
+        EXPECT_TRUE(std::isfinite(echo.peak_range_m)) << power;
+      }
+    }
+  }
+}
+
 // The sum of two equal Gaussians has two maxima exactly where they are more than 2 sigma apart.
 TEST(EchoFinder, ResolvesTwoEqualPulsesAboveTwoSigmaAndMeltsThemBelow) {
   for (const bool is_sampled : {false, true}) {
