@@ -4,8 +4,12 @@
 #include <cstdint>
 
 #include "core/detect/base/echo_tiles.h"
+#include "core/detect/base/lane_random.h"
 
 namespace railcast {
+
+/// An echo weaker than a third of the threshold is detected in at most one case of 1000.
+inline constexpr float kLeastStrayRatio = 0.3F;
 
 /// An echo that no surface in the beam sends.
 struct AddedEcho {
@@ -18,6 +22,15 @@ struct AddedEcho {
   /// effect `saturation`.
   float busy_m = 0.0F;
 };
+
+/// The intensity of an echo of this power and range before attenuation by the air, as of a surface.
+/// @param both_ways_per_m Twice the air's extinction coefficient.
+[[nodiscard]] inline float IntensityInClearAir(float power_ratio,
+                                               float power_min,
+                                               float both_ways_per_m,
+                                               float range_m) {
+  return power_ratio * power_min * range_m * range_m * baseline::Exp(both_ways_per_m * range_m);
+}
 
 /// Adds an echo with the outcome `clutter` to the firing in lane `beam`. The receiver's loops have
 /// still to detect and measure it.

@@ -6,13 +6,11 @@
 
 #include "core/base/units.h"
 #include "core/detect/base/beam_optics.h"
+#include "core/detect/base/weather_optics.h"
 #include "core/detect/clutter/added_echo.h"
 
 namespace railcast {
 namespace {
-
-// An echo weaker than a third of the threshold is detected in at most one case of 1000.
-constexpr float kLeastStrayRatio = 0.3F;
 
 // The square of the angle between two directions, by their chord: too small by angle^2 / 12, which
 // is 1 in 10,000 for 2 degrees.
@@ -23,11 +21,18 @@ float Angle2_rad2(const DetectTile& tile, std::size_t lane, const HaloSource& so
   return dx * dx + dy * dy + dz * dz;
 }
 
+// Twice the extinction coefficient of the air; 0 where the effect is off.
+float BothWays_per_m(const DetectorSpec& spec) {
+  if (!spec.effects.extinction) return 0.0F;
+  return static_cast<float>(2.0 * Extinction_per_m(spec.weather, spec.beam.wavelength_nm));
+}
+
 }  // namespace
 
 Ghost::Ghost(const DetectorSpec& spec)
     : label_(spec.clutter_labels.ghost),
       power_min_(static_cast<float>(LeastPower(spec.receiver))),
+      both_ways_per_m_(BothWays_per_m(spec)),
       range_min_m_(static_cast<float>(spec.range_min_m)) {
   if (!spec.effects.ghost) return;
   const double radius_m = 0.5e-3 * spec.cover.aperture_mm;
@@ -56,7 +61,9 @@ void Ghost::AddEchoes(EchoTiles& echoes) const {
     const float ghost = gain_ * ratio[beam] * ratio[beam];
     if (ghost < kLeastStrayRatio) continue;
     const float far_m = 2.0F * range_m[beam];
-    AddEcho(beam, {label_, EchoTiles::kGhost, far_m, ghost, ghost * power_min_ * far_m * far_m},
+    AddEcho(beam,
+            {label_, EchoTiles::kGhost, far_m, ghost,
+             IntensityInClearAir(ghost, power_min_, both_ways_per_m_, far_m)},
             echoes);
   }
 }
@@ -64,6 +71,7 @@ void Ghost::AddEchoes(EchoTiles& echoes) const {
 Halo::Halo(const DetectorSpec& spec)
     : label_(spec.clutter_labels.halo),
       power_min_(static_cast<float>(LeastPower(spec.receiver))),
+      both_ways_per_m_(BothWays_per_m(spec)),
       share_at_1_rad_(
           static_cast<float>(spec.receiver.halo_share_at_1_deg * std::pow(RadFromDeg(1.0), 4))),
       same_echo_m_(static_cast<float>(2.0 * PulseSigma_m(spec.beam))),
@@ -128,7 +136,8 @@ void Halo::AddEchoes(EchoTiles& echoes, const std::vector<HaloSource>& sources) 
     });
     if (ratio < kLeastStrayRatio || is_own) continue;
     AddEcho(beam,
-            {label_, EchoTiles::kHalo, range_m, ratio, ratio * power_min_ * range_m * range_m},
+            {label_, EchoTiles::kHalo, range_m, ratio,
+             IntensityInClearAir(ratio, power_min_, both_ways_per_m_, range_m)},
             echoes);
   }
 }

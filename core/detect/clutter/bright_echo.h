@@ -53,7 +53,8 @@ class Ghost {
  private:
   std::uint32_t label_;
   float power_min_;
-  float gain_{};  // q over the power ratio; 0 if the effect is off.
+  float both_ways_per_m_;  // Of the air.
+  float gain_{};           // q over the power ratio; 0 if the effect is off.
   float range_min_m_;
 };
 
@@ -94,8 +95,9 @@ class Halo {
  private:
   std::uint32_t label_;
   float power_min_;
-  float share_at_1_rad_;  // The constant of the law with the angle in radians.
-  float same_echo_m_;     // Echoes closer together are one.
+  float both_ways_per_m_;  // Of the air.
+  float share_at_1_rad_;   // The constant of the law with the angle in radians.
+  float same_echo_m_;      // Echoes closer together are one.
   float range_min_m_;
 };
 

@@ -16,11 +16,12 @@
 namespace railcast {
 namespace {
 
-// Whether the pulse leaves the vehicle and reaches this range before the first surface.
-bool Reaches(const DetectTile& first, std::size_t beam, float range_m) {
+// Whether the pulse leaves the vehicle and reaches this range before the first surface, and so far
+// before it that a receiver tells the two apart.
+bool Reaches(const DetectTile& first, std::size_t beam, float range_m, float same_echo_m) {
   // The range of a missing surface is NaN, which fails the comparison: nothing is behind it.
   return first.outcome[beam] != static_cast<std::uint32_t>(Outcome::kEgo) &&
-         !(range_m >= first.true_range_m[beam]);
+         !(range_m >= first.true_range_m[beam] - same_echo_m);
 }
 
 }  // namespace
@@ -80,6 +81,7 @@ void Clutter::AddPopulation(const Population& population, EchoTiles& echoes) con
   uniforms_(first, {spec_.seed, RandomUse::kClutter, 2 * population.first_echo}, counts);
   const auto range_scale_m = static_cast<float>(population.echoes.range_scale_m);
   const auto b = static_cast<float>(population.echoes.least_diameter_per_m2);
+  const auto same_echo_m = static_cast<float>(2.0 * PulseSigma_m(spec_.beam));
   for (std::size_t beam = 0; beam < first.num_rays; ++beam) {
     for (std::uint32_t n = 0; n < kMostParticles && counts[beam] >= population.at_most[n]; ++n) {
       const std::uint32_t block = 2 * (population.first_echo + n) + 1;
@@ -87,15 +89,19 @@ void Clutter::AddPopulation(const Population& population, EchoTiles& echoes) con
       const auto normals = baseline::LaneNormals({places[0], places[1], places[2], places[3]});
       const float r = range_scale_m * std::sqrt(normals.a * normals.a + normals.b * normals.b +
                                                 normals.c * normals.c);
-      if (static_cast<double>(r) < spec_.range_min_m || !Reaches(first, beam, r)) continue;
+      if (static_cast<double>(r) < spec_.range_min_m || !Reaches(first, beam, r, same_echo_m)) {
+        continue;
+      }
       // Above the least detectable diameter, diameters are exponentially distributed. The power is
       // proportional to the square of the diameter.
       const float v = UnitFloat(words_of(beam, block + 1)[0]);
       const float diameter = 1.0F - baseline::Log(1.0F - v) / (b * r * r);
-      const float ratio = diameter * diameter;
+      const float both_ways_per_m = spec_.effects.extinction ? 2.0F * extinction_per_m_ : 0.0F;
+      const float ratio = diameter * diameter * baseline::Exp(-both_ways_per_m * r);
+      if (ratio < kLeastStrayRatio) continue;
       AddEcho(beam,
               {population.label, population.first_echo + n, r, ratio,
-               ratio * static_cast<float>(power_min_) * r * r},
+               IntensityInClearAir(ratio, static_cast<float>(power_min_), both_ways_per_m, r)},
               echoes);
     }
   }
@@ -137,9 +143,7 @@ void Clutter::AddFogEchoes(const AirView& air, EchoTiles& echoes) const {
       const float ratio = peaks.ratio[e][beam];
       if (ratio <= 0.0F) continue;
       const float r = peaks.range_m[e][beam];
-      // As of a surface, the intensity is that before attenuation.
-      const float intensity =
-          ratio * power_min * r * r * baseline::Exp(2.0F * extinction_per_m_ * r);
+      const float intensity = IntensityInClearAir(ratio, power_min, 2.0F * extinction_per_m_, r);
       const auto [tile, lane] =
           AddEcho(beam, {spec_.clutter_labels.fog, kFirstFogEcho + e, r, ratio, intensity}, echoes);
       tile.cover[lane] = 1.0F;  // The light has come through the window already.

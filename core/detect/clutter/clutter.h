@@ -28,9 +28,9 @@ struct AirView {
 /// (weather_optics.h), and their power results from an exponential distribution of diameters above
 /// the least detectable one. Fog: an echo where its soft response peaks, up to two in other modes
 /// than `strongest`, each detected already (fog_echo.h). Both occur only in front of the first
-/// surface. Extinction up to drops and flakes is neglected, since they lie in the first metres.
-/// False alarms: uniformly distributed over the range gate, as strong as the threshold. The return
-/// mode decides which of a firing's echoes become returns.
+/// surface, drops and flakes by at least two sigmas of the pulse. Effect `extinction` weakens drops
+/// and flakes, too. False alarms: uniformly distributed over the range gate, as strong as the
+/// threshold. The return mode decides which of a firing's echoes become returns.
 class Clutter {
  public:
   Clutter(const DetectorSpec& spec, const Kernels& kernels);

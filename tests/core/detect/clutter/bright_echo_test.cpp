@@ -62,6 +62,9 @@ TEST(Ghost, HasThePowerOfLightThatGoesTheWayTwice) {
       const double range_m = static_cast<double>(ghost.true_range_m) / 2.0;
       const double expected = GhostRatio(range_m, 0.1, extinction_per_m);
       EXPECT_NEAR(static_cast<double>(ghost.power_ratio), expected, 1e-4 * expected);
+      const double in_clear_air = GhostRatio(range_m, 0.1, 0.0) * LeastPower(spec.receiver);
+      EXPECT_NEAR(static_cast<double>(ghost.intensity) / (4.0 * range_m * range_m * in_clear_air),
+                  1.0, 1e-4);
       EXPECT_EQ(ghost.clutter, kGhostLabel);
       EXPECT_EQ(ghost.range_m, ghost.true_range_m);
       farthest_m = std::max(farthest_m, range_m);
@@ -155,6 +158,19 @@ TEST(Halo, FallsWithTheFourthPowerOfTheAngle) {
     EXPECT_EQ(tile.clutter[lane], 28U);
     EXPECT_EQ(static_cast<Outcome>(tile.outcome[lane]), Outcome::kClutter);
   }
+}
+
+TEST(Halo, HasTheIntensityBeforeAttenuationByTheAir) {
+  DetectorSpec spec = WithHalo();
+  spec.effects.extinction = true;
+  spec.weather.fog_density_per_m = 0.02;
+  EchoTiles echoes;
+  FillFan(80.0, echoes);
+  Halo(spec).AddEchoes(echoes, {AheadAt(30.0F, 1e6F)});
+  const auto [tile, lane] = echoes.more(0);
+  const double clear = std::exp(2.0 * 0.02 * 30.0) * LeastPower(spec.receiver) * 900.0;
+  EXPECT_NEAR(static_cast<double>(tile.intensity[lane] / tile.power_ratio[lane]) / clear, 1.0,
+              1e-5);
 }
 
 TEST(Halo, BelongsToTheStrongestSourceInEachBeam) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/detect/base/beam_optics.h"
 #include "core/detect/base/weather_optics.h"
 #include "tests/core/detect/facing_beams.h"
 
@@ -112,10 +113,12 @@ TEST(Clutter, StandsInFrontOfTheFirstSurfaceOnly) {
   FacingBeams beams;
   beams.range_m = [](std::uint32_t) { return 4.0; };
   const auto clutter = ClutterOf(DetectFacing(spec, beams));
-  for (const FacingEcho& echo : clutter) ASSERT_LT(echo.range_m, 4.0F);
+  // Nearer to the surface, the receiver does not tell the two apart.
+  const double last_m = 4.0 - 2.0 * PulseSigma_m(spec.beam);
+  for (const FacingEcho& echo : clutter) ASSERT_LE(static_cast<double>(echo.range_m), last_m);
   const ParticleEchoes expected = Expected(spec);
   const double mean =
-      expected.mean_count * beams.num_firings * MaxwellCdf(4.0, expected.range_scale_m);
+      expected.mean_count * beams.num_firings * MaxwellCdf(last_m, expected.range_scale_m);
   EXPECT_NEAR(static_cast<double>(clutter.size()), mean, 4.0 * std::sqrt(mean));
 }
 
@@ -144,17 +147,44 @@ TEST(Clutter, DropsStayWhereTheyAreWhateverElseIsOn) {
   spec.weather.snow_rate_mmph = 2.0;
   spec.weather.visibility_m = 100.0;
   spec.weather.sun.illuminance_klx = 100.0;
-  spec.effects = {.surface_response = true,
-                  .extinction = true,
-                  .clutter = true,
-                  .fog_echo = true,
-                  .sunlight = true};
+  spec.effects = {.surface_response = true, .clutter = true, .fog_echo = true, .sunlight = true};
   std::vector<FacingEcho> rain;
   for (const FacingEcho& echo : ClutterOf(DetectFacing(spec, beams))) {
     if (echo.clutter == kLabels.rain) rain.push_back(echo);
   }
   EXPECT_GT(rain.size(), 3000U);
   EXPECT_EQ(rain, only_rain);
+}
+
+// A drop at range r with a diameter of D times the least detectable one has the power ratio
+// D^2 e^(-2 alpha r), and P(D > d) = e^(-b r^2 (d - 1)).
+TEST(Clutter, IsWeakenedByTheAirBeforeIt) {
+  DetectorSpec spec = RainSpec(1.0);
+  spec.weather.visibility_m = 50.0;
+  spec.effects.extinction = true;
+  const FacingBeams beams;
+  const auto clutter = ClutterOf(DetectFacing(spec, beams));
+  const auto detectable = static_cast<double>(std::ranges::count_if(
+      clutter, [](const FacingEcho& echo) { return echo.power_ratio >= 1.0F; }));
+  const ParticleEchoes drops = Expected(spec);
+  const double alpha_per_m = Extinction_per_m(spec.weather, spec.beam.wavelength_nm);
+  constexpr double kStep_m = 1e-3;
+  double share = 0.0;
+  for (double r = 0.5 * kStep_m; r < 10.0 * drops.range_scale_m; r += kStep_m) {
+    const double probability = MaxwellCdf(r + 0.5 * kStep_m, drops.range_scale_m) -
+                               MaxwellCdf(r - 0.5 * kStep_m, drops.range_scale_m);
+    share += probability *
+             std::exp(-drops.least_diameter_per_m2 * r * r * (std::exp(alpha_per_m * r) - 1.0));
+  }
+  EXPECT_LT(share, 0.9);
+  const double mean = share * drops.mean_count * beams.num_firings;
+  EXPECT_NEAR(detectable, mean, 4.0 * std::sqrt(mean));
+  // Intensities are those before attenuation, of a reflectance at that range.
+  for (const FacingEcho& echo : clutter) {
+    const double r = static_cast<double>(echo.true_range_m);
+    const double clear = static_cast<double>(echo.power_ratio) * std::exp(2.0 * alpha_per_m * r);
+    ASSERT_NEAR(static_cast<double>(echo.intensity) / (clear * 0.1 / 4e4 * r * r), 1.0, 1e-4);
+  }
 }
 
 // Two echoes with the same number would share their random draws.
