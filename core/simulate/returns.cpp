@@ -109,13 +109,13 @@ void JoinSaturated(float saturation_ratio, std::vector<Candidate>& detected) {
     std::size_t longest = first;
     bool is_saturated = false;
     float end_m = begin_m(detected[first]);
-    while (end < detected.size() && begin_m(detected[end]) <= end_m) {
+    do {
       const Candidate& echo = detected[end];
       is_saturated = is_saturated || PowerOf(echo.place()) >= saturation_ratio;
       if (BusyOf(echo) > BusyOf(detected[longest])) longest = end;
       end_m = std::max(end_m, RangeOf(echo.place()) + BusyOf(echo));
       ++end;
-    }
+    } while (end < detected.size() && begin_m(detected[end]) <= end_m);
     if (is_saturated) {
       kept.push_back(detected[longest]);
     } else {
@@ -180,8 +180,15 @@ bool IsLostSurface(const Candidate& echo) {
          (outcome == Outcome::kBelowThreshold || outcome == Outcome::kCoverBlocked);
 }
 
+// The share of the beam that an echo's surfaces fill; less than 0 if no surface sends it.
+float ShareOf(const Candidate& echo) {
+  const DetectTile& tile = *echo.tile;
+  const bool has_surface = tile.surface[echo.lane] != 0 && tile.clutter[echo.lane] == kNoClutter;
+  return has_surface ? tile.share[echo.lane] : -1.0F;
+}
+
 // The echo that represents a firing without returns: the strongest surface echo that was too weak
-// or, if there is none, the first echo.
+// or, if there is none, that whose surfaces fill most of the beam, the first of several.
 TilePlace Missed(const std::vector<Candidate>& all) {
   const auto best =
       std::max_element(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
@@ -189,7 +196,8 @@ TilePlace Missed(const std::vector<Candidate>& all) {
         const bool b_lost = IsLostSurface(b);
         return a_lost == b_lost ? PowerOf(a.place()) < PowerOf(b.place()) : b_lost;
       });
-  return IsLostSurface(*best) ? best->place() : all.front().place();
+  if (IsLostSurface(*best)) return best->place();
+  return std::ranges::max_element(all, {}, &ShareOf)->place();
 }
 
 }  // namespace

@@ -131,7 +131,9 @@ inline void ApplyMeasurement(DetectTile& tile, const MeasurementParameters& para
     if constexpr (kShape != RangeErrors::kNone) {
       float sigma_m = p.sigma0_m + p.sigma1 * true_range_m;
       if constexpr (kShape == RangeErrors::kSignal) {
-        const float snr = p.snr_at_threshold * tile.power_ratio[i];
+        constexpr float kLeast = 1e-30F;  // Of echoes without a power, that 0 / 0 is not reached.
+        const float ratio = tile.power_ratio[i] > kLeast ? tile.power_ratio[i] : kLeast;
+        const float snr = p.snr_at_threshold * ratio;
         sigma_m = std::sqrt(p.sigma0_m * p.sigma0_m + p.scale_m * p.scale_m / (2.0F * snr));
       }
       const Normals n = LaneNormals(LaneWords(key, tile.firing[i], tile.echo[i]));
@@ -158,7 +160,7 @@ inline void ApplyMeasurement(DetectTile& tile, const MeasurementParameters& para
     const std::uint32_t gated = beyond     ? static_cast<std::uint32_t>(Outcome::kOutOfRange)
                                 : short_of ? static_cast<std::uint32_t>(Outcome::kNearRange)
                                            : before;
-    const bool has_point = measured && !beyond && !short_of;
+    const bool has_point = measured && range_m >= p.range_min_m && range_m <= p.range_max_m;
     tile.outcome[i] = measured ? gated : before;
     tile.range_m[i] = has_point ? range_m : kNaN;
     tile.x[i] = has_point ? x : kNaN;

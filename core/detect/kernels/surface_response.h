@@ -72,6 +72,7 @@ inline void ApplyResponse(DetectTile& tile, const ResponseParameters& parameters
     }
     const float covered = tile.normal_up[i] >= kCos45 ? p.snow_cover : 0.0F;
     rho += covered * (p.snow_a * c + p.snow_b * (1.0F - c2) - rho);
+    tile.reflectivity[i] += covered * (p.snow_a - tile.reflectivity[i]);  // To the sun.
     const float range_m = tile.true_range_m[i];
     tile.intensity[i] = tile.share[i] * rho;
     tile.power_ratio[i] = tile.share[i] * rho * p.inverse_power_m2 / (range_m * range_m);

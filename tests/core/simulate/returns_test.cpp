@@ -23,6 +23,7 @@ struct HandMade {
   std::uint32_t surface = 1;
   std::uint32_t clutter = kNoClutter;
   float busy_m = 0.0F;
+  float share = 0.5F;
 };
 
 void Fill(const HandMade& echo, DetectTile& tile, std::size_t lane) {
@@ -30,7 +31,7 @@ void Fill(const HandMade& echo, DetectTile& tile, std::size_t lane) {
   tile.surface[lane] = echo.surface;
   tile.true_range_m[lane] = echo.range_m;
   tile.incidence_rad[lane] = 0.25F;
-  tile.share[lane] = 0.5F;
+  tile.share[lane] = echo.share;
   tile.outcome[lane] = static_cast<std::uint32_t>(echo.outcome);
   tile.clutter[lane] = echo.clutter;
   tile.intensity[lane] = 0.125F;
@@ -178,6 +179,18 @@ TEST(Returns, KeepWhatTheCentralRaySaysWhereNoSurfaceWasTooWeak) {
 }
 
 // Fog that was too weak says nothing of the surface behind it, which the sensor has missed.
+TEST(Returns, SayOfALostFiringWhatFilledMostOfItsBeam) {
+  std::vector<HandMade> echoes = {{10.0F, 9.0F, Outcome::kSensorDropout, 1},
+                                  {20.0F, 2.0F, Outcome::kSensorDropout, 2},
+                                  {5.0F, 2.0F, Outcome::kSensorDropout, 3, 7}};
+  echoes[0].share = 0.2F;
+  echoes[1].share = 0.8F;
+  echoes[2].share = 1.0F;
+  EXPECT_EQ(Chosen({.mode = ReturnMode::kStrongest}, echoes), (Surfaces{2}));
+  echoes[0].share = 0.8F;
+  EXPECT_EQ(Chosen({.mode = ReturnMode::kStrongest}, echoes), (Surfaces{1}));
+}
+
 TEST(Returns, DoNotSayThatEchoesFromTheAirWereMissed) {
   EXPECT_EQ(
       StoreOne({.mode = ReturnMode::kStrongest}, {{40.0F, 0.4F, Outcome::kSensorDropout, 1},

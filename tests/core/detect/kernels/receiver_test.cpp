@@ -318,6 +318,28 @@ TEST(Measurement, ReportsWhereTheEchoPeaksNotWhereTheSurfaceIs) {
   EXPECT_EQ(tile.true_range_m[0], 20.0F);
 }
 
+// Behind a covered window, for example. With a noise that does not hang on the power there is none.
+TEST(Measurement, OfAnEchoWithoutPowerIsAPointWithARangeOrNone) {
+  const float bias_m = 0.0F;
+  for (const float scale_m : {0.0F, 0.1F}) {
+    DetectTile tile{};
+    tile.num_rays = kTileSize;
+    for (std::uint32_t i = 0; i < kTileSize; ++i) {
+      tile.firing[i] = i;
+      tile.true_range_m[i] = 20.0F;
+    }
+    baseline::ApplyMeasurement<RangeErrors::kSignal>(tile, {.range_max_m = 100.0F,
+                                                            .scale_m = scale_m,
+                                                            .snr_at_threshold = 5.0F,
+                                                            .channel_bias_m = &bias_m});
+    for (std::uint32_t i = 0; i < kTileSize; ++i) {
+      const bool has_point = tile.outcome[i] == static_cast<std::uint32_t>(Outcome::kReturned);
+      EXPECT_EQ(std::isfinite(tile.range_m[i]), has_point);
+      EXPECT_EQ(has_point, scale_m == 0.0F);
+    }
+  }
+}
+
 // The power of an echo at R is (R_t / R)^2 of the threshold, with R_t = 447.2 m for 50 %.
 TEST(RangeWalk, AddsTheInverseOfThePowerRatioUpToTheThreshold) {
   FacingBeams beams{.num_firings = kTileSize};

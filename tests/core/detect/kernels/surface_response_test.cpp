@@ -130,6 +130,8 @@ TEST(SurfaceResponse, PutsSnowOnFacesLessSteepThan45Degrees) {
     tile->normal_up[0] = up;
     baseline::ApplyResponse(*tile, parameters);
     const float cover = up > 0.705F ? 0.6F : 0.0F;
+    const float rho = kEverything.diffuse;  // What the sun shines on.
+    EXPECT_FLOAT_EQ(tile->reflectivity[0], cover * snow.a + (1.0F - cover) * rho) << up;
     EXPECT_FLOAT_EQ(tile->intensity[0], cover * white + (1.0F - cover) * bare) << up;
   }
 }
