@@ -12,6 +12,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/run/run_folder.h"
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 
@@ -51,7 +52,7 @@ void AddReceive(ProgramOptions& app, ProgramCommand& command);
 inline void CheckDistinct(const std::vector<std::filesystem::path>& sources) {
   std::set<std::filesystem::path> seen;
   for (const std::filesystem::path& source : sources) {
-    if (seen.insert(std::filesystem::weakly_canonical(source)).second) continue;
+    if (seen.insert(FollowedPath(source)).second) continue;
     throw InputError(ShownPath(source) + ": must be named once");
   }
 }

@@ -54,6 +54,7 @@ std::vector<std::pair<std::string, std::string>> FactsOf(const std::vector<Recor
 }
 
 int RunDetect(const DetectOptions& options, const std::string& command_line) {
+  CheckReportFolder(options.output.out);
   const DetectSpec spec = options.rule.Spec();
   std::vector<RecordingInfo> infos;
   std::vector<DetectRun> runs;
@@ -98,7 +99,8 @@ void AddDetect(ProgramOptions& app, ProgramCommand& command) {
   detect
       .AddOption("DIR", options->sources,
                  "Sequence directory; several of one scenario with different seeds give intervals")
-      .Required();
+      .Required()
+      .Check(NonEmpty());
   detect
       .AddOption("--points", options->rule.spec.rule.min_points,
                  "Least number of points on an object that is seen in a frame")

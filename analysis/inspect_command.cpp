@@ -9,6 +9,7 @@
 #include "analysis/stats/statistics.h"
 #include "core/io/recording/found_sensor.h"
 #include "core/io/recording/source_choice.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/write_file.h"
 #include "core/program/version.h"
 #include "railcast/io/recording.h"
@@ -26,6 +27,8 @@ struct InspectOptions {
 };
 
 int RunInspect(const InspectOptions& options, const std::string& command_line) {
+  CheckReportFolder(options.output.out);
+  CheckOutputFiles({{"SOURCE", options.source}}, {{"--sensor-file", options.sensor_file}});
   const std::filesystem::path source = WithChoice({options.source}, options.choice).front();
   const auto recording = OpenRecording(source);
   const RecordingLook inspection = Inspect(*recording, options.num_frames);
@@ -56,7 +59,9 @@ void AddInspect(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<InspectOptions>();
   ProgramOptions inspect = app.AddCommand(
       "inspect", "Say what a recording is, what is wrong with it, and what it is fit for");
-  inspect.AddOption("SOURCE", options->source, "Recording of any kind").Required();
+  inspect.AddOption("SOURCE", options->source, "Recording of any kind")
+      .Required()
+      .Check(NonEmpty());
   AddSourceChoice(inspect, options->choice);
   AddCaptureSensor(inspect, options->choice.sensor);
   inspect

@@ -12,6 +12,7 @@
 
 #include "analysis/commands.h"
 #include "analysis/receive/receive_report.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
 #include "railcast/io/udp_grabber.h"
@@ -98,6 +99,8 @@ class FrameCounter {
 };
 
 int RunReceive(const ReceiveOptions& options) {
+  if (!options.out.empty()) CheckIsOutside("--out", options.out);
+  CheckOutputFiles({}, {{"--summary", options.summary.value_or("")}});
   if (options.summary) CheckCanWrite(*options.summary);
   const HeldSignals signals;
   FrameCounter counter(options);

@@ -213,6 +213,7 @@ Section SheetSection(const std::vector<MeasuredSource>& sources) {
 }
 
 int RunStats(const StatsOptions& options, const std::string& command_line) {
+  CheckReportFolder(options.output.out);
   const tbb::global_control limit = LimitThreads(options.num_threads);
   // Of captures, a sensor is chosen by its address, of sequences by its name.
   SourceChoice choice = options.choice;
@@ -254,7 +255,8 @@ void AddStats(ProgramOptions& app, ProgramCommand& command) {
       .AddOption("SOURCE", options->sources,
                  "Sequence directory, .pcd or .ply file, directory of such files, " + kinds +
                      "or a folder of KITTI's layout or a data set; several are summed up")
-      .Required();
+      .Required()
+      .Check(NonEmpty());
   AddSourceChoice(stats, options->choice);
   stats
       .AddOption(

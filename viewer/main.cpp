@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/recording/source_choice.h"
+#include "core/io/run/run_folder.h"
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "core/program/progress_line.h"
@@ -277,6 +278,7 @@ void WritePlan(const ViewOptions& options) {
 /// Carries out what the command line asks for.
 /// @throws InputError with one line if something cannot be read, shown or written.
 void RunViewer(const ViewOptions& options) {
+  CheckOutputFiles({}, {{"--screenshot", options.screenshot}, {"--video", options.video}});
   if (options.is_plan()) {
     WritePlan(options);
     return;

@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
@@ -115,7 +116,7 @@ Value Kept(const fs::path& file,
 
 KeptFrontier::KeptFrontier(fs::path folder, const std::string& identity)
     : folder_(std::move(folder)) {
-  fs::create_directories(folder_);
+  MakeFolders(folder_);
   const fs::path file = folder_ / kIdentityFile;
   if (!fs::exists(file)) {
     WriteFileWhole(file, identity + "\n");

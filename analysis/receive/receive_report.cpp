@@ -76,6 +76,10 @@ ReceivedFiles::ReceivedFiles(const std::filesystem::path& directory) : directory
   if (std::filesystem::exists(index)) {
     throw InputError(ShownPath(index) + ": must not exist: a recording is there already");
   }
+  if (!std::filesystem::is_empty(directory_ / "frames", error)) {
+    throw InputError(ShownPath(directory_ / "frames") +
+                     ": must be empty: frames are there already");
+  }
   lines_.open(index);
   lines_.precision(std::numeric_limits<double>::max_digits10);
   lines_ << "file,run,frame,stamp_ns,x,y,z,qx,qy,qz,qw,points,lost_points,end_time_ns,end_x,end_y,"

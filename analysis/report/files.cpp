@@ -87,10 +87,13 @@ Json JsonOf(const Section& section) {
   for (const Table& table : section.tables) tables.push_back(JsonOf(table));
   Json charts = Json::array();
   for (const Chart& chart : section.charts) charts.push_back(JsonOf(chart));
+  Json pictures = Json::array();
+  for (const Picture& picture : section.pictures) pictures.push_back({{"key", picture.key}});
   return {{"key", section.key},
           {"title", section.title},
           {"tables", std::move(tables)},
-          {"charts", std::move(charts)}};
+          {"charts", std::move(charts)},
+          {"pictures", std::move(pictures)}};
 }
 
 std::string CsvText(const std::string& text) {

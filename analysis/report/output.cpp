@@ -1,7 +1,9 @@
 #include "analysis/report/output.h"
 
+#include <array>
 #include <iostream>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <utility>
@@ -88,11 +90,34 @@ void WriteTables(const Report& report, const std::filesystem::path& folder) {
   }
 }
 
+// Removes the tables and drawings of the report that is replaced; its keys have no folders.
+void RemoveEarlier(const std::filesystem::path& out, const std::string& name) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(out / name, ignored)) return;
+  constexpr std::array<std::array<const char*, 3>, 4> kFiles = {{{"tables", "csv", ".csv"},
+                                                                 {"charts", "charts", ".svg"},
+                                                                 {"charts", "charts", ".png"},
+                                                                 {"pictures", "charts", ".png"}}};
+  try {
+    const auto report = nlohmann::json::parse(ReadFileWhole(out / name));
+    for (const auto& section : report.at("sections")) {
+      for (const auto& [kind, folder, ending] : kFiles) {
+        for (const auto& each : section.value(kind, nlohmann::json::array())) {
+          const std::filesystem::path key = each.at("key").get<std::string>();
+          std::filesystem::remove(out / folder / (key.filename().string() + ending), ignored);
+        }
+      }
+    }
+  } catch (const nlohmann::json::exception&) {  // Another file of this name tells nothing.
+  }
+}
+
 void WriteFiles(const Report& report,
                 const std::filesystem::path& out,
                 const std::string& name,
                 const std::string& json) {
   MakeFolders(out);
+  RemoveEarlier(out, name);
   WriteFileWhole(out / name, json);
   WriteTables(report, out / "csv");
   // The drawings come last, so that everything else is written even without gnuplot.
@@ -117,6 +142,16 @@ void AddReportOptions(ProgramOptions& command, ReportOutput& output) {
           },
           "text: print the report on the terminal; json: print it as JSON")
       .Check(Named({"text", "json"}));
+}
+
+void CheckReportFolder(const std::filesystem::path& out) {
+  if (out.empty()) return;
+  CheckIsOutside("--out", out);
+  std::error_code ignored;
+  const bool is_new = !std::filesystem::exists(out, ignored);
+  MakeFolders(out);
+  CheckCanWrite(out / "report.html");
+  if (is_new) std::filesystem::remove(out, ignored);
 }
 
 void EmitReport(Report report,

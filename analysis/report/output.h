@@ -19,8 +19,15 @@ struct ReportOutput {
 /// Adds --out DIR and --format text or json, of which at least one must be given.
 void AddReportOptions(ProgramOptions& command, ReportOutput& output);
 
+/// To be called when a command begins, before hours of work: checks that a report can be written to
+/// a folder, and is to be outside of those of CheckIsOutside(). Leaves no folder.
+/// @param out Nothing is checked if it is empty.
+/// @throws InputError if it cannot or must not.
+void CheckReportFolder(const std::filesystem::path& out);
+
 /// Writes DIR/report.html, DIR/`name`.json, DIR/csv/TABLE.csv and DIR/charts/CHART.svg and .png,
-/// and prints the report or, without --format, its headlines and the paths of the files.
+/// and prints the report or, without --format, its headlines and the paths of the files. Tables and
+/// drawings that DIR/`name`.json of an earlier report names are removed before.
 /// @param details A JSON object whose members are added to the JSON.
 /// @throws InputError if a file cannot be written, or if gnuplot is missing: then the page has no
 ///   charts, but everything else is written.

@@ -21,7 +21,9 @@ class ReportScratch {
  public:
   /// @throws InputError if the system refuses.
   ReportScratch() {
-    std::string name = (std::filesystem::temp_directory_path() / "railcast-XXXXXX").string();
+    std::error_code error;
+    std::string name = (std::filesystem::temp_directory_path(error) / "railcast-XXXXXX").string();
+    if (error) throw InputError("TMPDIR: must be a folder, in which charts are drawn");
     if (::mkdtemp(name.data()) == nullptr) throw FileError(name, errno);
     path_ = name;
   }

@@ -100,6 +100,9 @@ void CheckIsBeside(const std::string& option,
 int RunSequenceCommand(const SequenceOptions& options) {
   CheckIsBeside("--summary", options.summary, options.made.directory);
   CheckIsBeside("--picture", options.picture, options.made.directory);
+  CheckOutputFiles(
+      {{"SCENARIO", options.scenario}, {"--commands", options.commands.value_or("")}},
+      {{"--summary", options.summary.value_or("")}, {"--picture", options.picture.value_or("")}});
   RunPlan plan = PlanOf(options);
   FrameMaker maker(plan.scenario, options.made.num_threads, plan.sensors.front().spec.isa);
   for (std::size_t i = 0; options.is_verbose && i < maker.num_sensors(); ++i) {
@@ -198,8 +201,8 @@ void AddSequence(ProgramOptions& app, ProgramCommand& command) {
   sequence.Footer(
       "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"
       "command continues).");
-  sequence.WhenParsed([&app, &command, options] {
-    options->is_verbose = app.is_given("--verbose");
+  sequence.AddFlag("-v,--verbose", options->is_verbose, "Print details of each step");
+  sequence.WhenParsed([&command, options] {
     CheckFields(options->made.fields);
     command = [options](const std::string&) { return RunSequenceCommand(*options); };
   });

@@ -154,6 +154,22 @@ TEST(ReceiveCommand, KeepsFramesWithTheirPoses) {
             (out / "frames.csv").string() + ": must not exist: a recording is there already\n");
 }
 
+TEST(ReceiveCommand, ReplacesNoFramesOfOtherRecordings) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path out = std::filesystem::canonical(directory.path());
+  std::filesystem::create_directory(out / "frames");
+  WriteFileWhole(out / "frames/000000.pcd", "mine");
+  const std::string command = Receive() + "--frames 1 --out " + out.string();
+  EXPECT_EQ(RunCommand(command).said,
+            (out / "frames").string() + ": must be empty: frames are there already\n");
+  WriteFileWhole(out / "frames.jsonl", "");
+  EXPECT_EQ(RunCommand(command).said,
+            "--out: must be outside " + out.string() +
+                ", which holds nothing but what belongs to its frames.jsonl (got " + out.string() +
+                ")\n");
+  EXPECT_EQ(RunCommand(command).status, 1);
+}
+
 TEST(ReceiveCommand, NamesWhatItCannotListenToOrWrite) {
   const std::string analyze = RAILCAST_ANALYZE;
   EXPECT_EQ(RunCommand(analyze + " receive 127.0.0.1:99999").status, 1);

@@ -227,6 +227,19 @@ TEST(StatsCommand, RefusesToSumUpLabelsOfTwoMeanings) {
                                sequence.string() + "\n"));
 }
 
+TEST(StatsCommand, KeepsOutOfTheSequence) {
+  const TemporaryFolder folder;
+  const auto sequence = MakeSequence(folder, "");
+  for (const auto& out : {sequence, sequence / "stats"}) {
+    EXPECT_THAT(
+        Analyze("stats " + sequence.string() + " --out " + out.string()),
+        ExitsWith(1, "--out: must be outside " + canonical(sequence).string() +
+                         ", which holds nothing but what belongs to its frames.jsonl (got " +
+                         out.string() + ")\n"));
+  }
+  EXPECT_THAT(Analyze("verify " + sequence.string()), ExitsWith(0));
+}
+
 // One sensor of 20 Hz without rings and one of 10 Hz with 16.
 TEST(StatsCommand, SumsUpDifferentSensorsWithoutTheirRingsOrTakesOne) {
   const TemporaryFolder folder;

@@ -28,13 +28,8 @@ struct CardOptions {
   ReportOutput output;
 };
 
-void CheckOut(const fs::path& out, const fs::path& dataset) {
-  // A data set holds what its manifest names and nothing else.
-  if (IsInFolder(out, dataset)) {
-    throw InputError(
-        "--out: must be outside the data set, which holds nothing but its own files (got " +
-        ShownPath(out) + ")");
-  }
+void CheckOut(const fs::path& out) {
+  CheckReportFolder(out);
   // People write files of this name, too.
   const fs::path readme = out / kCardFile;
   if (fs::exists(readme) && !ReadFileWhole(readme).starts_with("# Data set ")) {
@@ -44,7 +39,7 @@ void CheckOut(const fs::path& out, const fs::path& dataset) {
 
 int RunCard(const CardOptions& options, const std::string& command_line) {
   const fs::path& out = options.output.out;
-  if (!out.empty()) CheckOut(out, options.dataset);
+  if (!out.empty()) CheckOut(out);
   Report report = MakeDatasetCard(options.dataset, options.licence, command_line);
   for (const auto& fact : MakerFacts(ProgramVersion())) report.facts.push_back(fact);
   if (!out.empty()) {

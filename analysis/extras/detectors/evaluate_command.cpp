@@ -86,6 +86,7 @@ class RunUnderTest {
 };
 
 int RunEvaluate(EvaluateOptions options, const std::string& command_line) {
+  CheckReportFolder(options.output.out);
   CheckDistinct(options.sources);
   if (!options.detections.empty() && options.detections.size() != options.sources.size()) {
     throw InputError("--detections: must be a file for each run, " +
@@ -172,7 +173,9 @@ void AddEvaluate(ProgramOptions& app, ProgramCommand& command) {
       "evaluate",
       "Evaluate an object detector, the reference one or yours: at which distances it detects what "
       "is in the way, and how many false alarms it gives per kilometre");
-  evaluate.AddOption("RUN", options->sources, "Sequence directories, of any scenarios").Required();
+  evaluate.AddOption("RUN", options->sources, "Sequence directories, of any scenarios")
+      .Required()
+      .Check(NonEmpty());
   AddDetectorOptions(evaluate, *options);
   const Option width =
       evaluate

@@ -23,6 +23,7 @@ struct DossierOptions {
 };
 
 int RunDossierCommand(const DossierOptions& options, const std::string& command_line) {
+  CheckReportFolder(options.output.out);
   FinishedStudy study = ReadFinishedStudy(options.study);
   study.spec.table = options.table;
   // Wrong names are said before the error is measured, which takes minutes.

@@ -104,6 +104,7 @@ void Judge(const FitProof& proof,
 }
 
 int RunFit(const FitOptions& options, const std::string& command_line) {
+  CheckReportFolder(options.output.out);
   const tbb::global_control limit = LimitThreads(options.num_threads);
   const auto sources = WithChoice(options.sources, options.choice);
   CheckDistinct(sources);
@@ -181,7 +182,8 @@ void AddFit(ProgramOptions& app, ProgramCommand& command) {
   fit.AddOption("SOURCE", options->sources,
                 "Sequence directory, .pcd or .ply file, directory of such files, .pcap capture "
                 "or bag of ROS 2; several are taken together")
-      .Required();
+      .Required()
+      .Check(NonEmpty());
   AddSourceChoice(fit, options->choice);
   AddCaptureSensor(fit, options->choice.sensor);
   AddKnowledgeOptions(fit, *options);

@@ -32,6 +32,7 @@ Sectors SectorsOf(const std::string& name) {
 }
 
 int RunPreset(const PresetOptions& options, const std::string& command_line) {
+  CheckReportFolder(options.output.out);
   const tbb::global_control limit = LimitThreads(options.num_threads);
   const std::filesystem::path source = WithChoice({options.source}, options.choice).front();
   const auto recording = OpenRecording(source);
@@ -66,7 +67,8 @@ void AddPreset(ProgramOptions& app, ProgramCommand& command) {
   preset
       .AddOption("SOURCE", options->source,
                  "Capture or other recording of a stationary sensor, with a row for each channel")
-      .Required();
+      .Required()
+      .Check(NonEmpty());
   AddSourceChoice(preset, options->choice);
   AddCaptureSensor(preset, options->choice.sensor);
   preset.AddOption("--scenario", options->scenario,

@@ -27,6 +27,7 @@ struct SightOptions {
 };
 
 int RunSight(const SightOptions& options, const std::string& command_line) {
+  CheckReportFolder(options.output.out);
   const auto limit = LimitThreads(options.num_threads);
   SightSpec spec = options.spec;
   if (options.speed_kmph) spec.speed_mps = MpsFromKmph(*options.speed_kmph);
@@ -52,7 +53,7 @@ void AddSight(ProgramOptions& app, ProgramCommand& command) {
       "sight",
       "Chart how far ahead along its track a vehicle sees, before curve, cutting, trees or tunnel "
       "hide it, beside the distance that it needs to stop");
-  sight.AddOption("SCENARIO", options->scenario, "Scenario file").Required();
+  sight.AddOption("SCENARIO", options->scenario, "Scenario file").Required().Check(NonEmpty());
   sight
       .AddOption("--heights-m", options->spec.heights_m,
                  "Heights of the targets on the track, separated by commas")

@@ -18,6 +18,7 @@
 #include "core/certify/certifier.h"
 #include "core/extras/recipe/scenario_draw.h"
 #include "core/extras/recipe/shard.h"
+#include "core/io/run/run_folder.h"
 #include "core/program/progress_line.h"
 #include "core/program/stop_signals.h"
 #include "core/program/version.h"
@@ -110,6 +111,7 @@ int RunStudyCommand(StudyOptions options, const std::string& command_line) {
   if (options.output.out.empty()) {
     throw InputError("--out: missing: the folder of the study, in which it can be continued");
   }
+  CheckIsOutside("--out", options.output.out, true);
   CheckTable(options.table);
   if (!options.table.empty() && !options.choices.shard.is_whole()) {
     throw InputError("--table: must be without --shard: a shard has no report");
@@ -159,7 +161,8 @@ void AddStudy(ProgramOptions& app, ProgramCommand& command) {
       "the way are detected at which distance");
   study
       .AddOption("STUDY", options->study, "Study file: the recipe and the question (docs/study.md)")
-      .Required();
+      .Required()
+      .Check(NonEmpty());
   AddReportOptions(study, options->output);
   AddTable(study, options->table);
   const Option shard =

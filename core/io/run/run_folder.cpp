@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <system_error>
@@ -14,6 +15,10 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/io/run/dataset_files.h"
+#include "core/io/run/sensors_record.h"
+#include "core/io/run/sequence_files.h"
+#include "core/io/run/survey_record.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
@@ -30,18 +35,72 @@ bool LockFolder(int folder) {
   return false;
 }
 
+/// Files that only folders of railcast's have: what run.json or study.json is called may be a
+/// user's own scenario or study.
+constexpr std::array<std::string_view, 6> kOwnFiles = {
+    kFramesFile, kInsertFile, "convert.jsonl", "scenarios.jsonl", "approaches.jsonl", kSurveyFile};
+
+/// The file by which a folder is known as railcast's; empty if it is not.
+std::string_view OwnFileIn(const std::filesystem::path& folder) {
+  std::error_code error;
+  for (const std::string_view name : kOwnFiles) {
+    if (std::filesystem::exists(folder / name, error)) return name;
+  }
+  if (!std::filesystem::exists(folder / kSensorsFile, error)) return "";
+  ErrorList others;  // Other files are called sensors.json, too.
+  const auto sensors = Attempt("", others, [&] { return SensorFoldersIn(folder); });
+  return sensors && !sensors->empty() ? kSensorsFile : "";
+}
+
+/// Whether writing a file would replace another one, or one in another folder.
+bool WouldReplace(const std::filesystem::path& output, const std::filesystem::path& other) {
+  std::error_code error;
+  // Whatever is written to /dev/null or a pipe replaces nothing.
+  if (std::filesystem::is_other(std::filesystem::status(output, error))) return false;
+  return IsInFolder(output, other) || std::filesystem::equivalent(output, other, error);
+}
+
 }  // namespace
 
+std::filesystem::path FollowedPath(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto whole = std::filesystem::absolute(path, error);
+  auto followed = std::filesystem::weakly_canonical(whole, error);
+  if (!error) return followed;
+  const int error_number = error.value();
+  if (std::filesystem::exists(whole, error)) return whole;
+  throw FileError(path, error_number);
+}
+
 bool IsInFolder(const std::filesystem::path& path, const std::filesystem::path& folder) {
-  const auto followed = [](const std::filesystem::path& given) {
-    std::error_code error;
-    const auto whole = std::filesystem::weakly_canonical(given, error);
-    if (error) throw FileError(given, error.value());
-    return whole;
-  };
-  const auto outer = followed(folder);
-  const auto inner = followed(path);
+  const auto outer = FollowedPath(folder);
+  const auto inner = FollowedPath(path);
   return std::ranges::mismatch(outer, inner).in1 == outer.end();
+}
+
+void CheckIsOutside(const std::string& option, const std::filesystem::path& path, bool may_be_own) {
+  std::filesystem::path folder = FollowedPath(path);
+  if (may_be_own) folder = folder.parent_path();
+  for (; folder.has_relative_path(); folder = folder.parent_path()) {
+    const std::string_view name = OwnFileIn(folder);
+    if (name.empty()) continue;
+    throw InputError(option + ": must be outside " + ShownPath(folder) +
+                     ", which holds nothing but what belongs to its " + std::string(name) +
+                     " (got " + ShownPath(path) + ")");
+  }
+}
+
+void CheckOutputFiles(std::vector<GivenPath> inputs, const std::vector<GivenPath>& outputs) {
+  for (const GivenPath& output : outputs) {
+    if (output.path.empty()) continue;
+    CheckIsOutside(output.option, output.path);
+    for (const GivenPath& other : inputs) {
+      if (other.path.empty() || !WouldReplace(output.path, other.path)) continue;
+      throw InputError(output.option + ": must not be " + other.option + " or in it (got " +
+                       ShownPath(output.path) + ")");
+    }
+    inputs.push_back(output);
+  }
 }
 
 void MakeFolders(const std::filesystem::path& folder) {

@@ -43,10 +43,37 @@ class LineFile {
   FileDescriptor descriptor_;
 };
 
+/// Where a path leads, links followed; it need not exist. What has no name, such as the pipe that
+/// /dev/stdin leads to, stays as it is given.
+/// @throws InputError if the system cannot follow it, such as a link to itself.
+[[nodiscard]] std::filesystem::path FollowedPath(const std::filesystem::path& path);
+
 /// Whether a path leads to a folder or into it, links followed. Neither need exist.
 /// @throws InputError if the system cannot follow a path, such as a link to itself.
 [[nodiscard]] bool IsInFolder(const std::filesystem::path& path,
                               const std::filesystem::path& folder);
+
+/// Checks that a file or folder is to be written neither as nor into the folder of a run, several
+/// sensors' runs, an insertion, a conversion, a data set, a study or a survey, which hold nothing
+/// but their own files.
+/// @param option Names the path: "--out".
+/// @param may_be_own Whether it may be such a folder itself, which its command judges.
+/// @throws InputError "--out: must be outside a/run, which holds nothing but what belongs to its
+///   frames.jsonl (got a/run/stats)".
+void CheckIsOutside(const std::string& option,
+                    const std::filesystem::path& path,
+                    bool may_be_own = false);
+
+/// A path of the command line, empty if it is not given.
+struct GivenPath {
+  std::string option;  ///< "--summary".
+  std::filesystem::path path;
+};
+
+/// Checks that files are to be written outside of the folders of CheckIsOutside(), and over neither
+/// what a command reads nor each other.
+/// @throws InputError as CheckIsOutside(); "--summary: must not be SCENARIO or in it (got a.json)".
+void CheckOutputFiles(std::vector<GivenPath> inputs, const std::vector<GivenPath>& outputs);
 
 /// Makes a folder and those that it lies in, unless they are there.
 /// @throws InputError if the system refuses.

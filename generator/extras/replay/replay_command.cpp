@@ -10,6 +10,7 @@
 #include "core/extras/packets/recording/packet_recording.h"
 #include "core/extras/ros/recording/bag_recording.h"
 #include "core/io/recording/source_choice.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/write_file.h"
 #include "core/program/command_line.h"
 #include "core/program/program.h"
@@ -153,6 +154,8 @@ int ReportReplay(const LiveResult& result, const ReplayFeed& feed, const ReplayO
 }
 
 int RunReplayCommand(const ReplayOptions& options) {
+  CheckOutputFiles({{"RECORDING", options.recording}, {"--insert", options.insert.value_or("")}},
+                   {{"--summary", options.summary.value_or("")}});
   if (options.summary) CheckCanWrite(*options.summary);
   const auto feed = OpenFeed(options);
   const auto channel = OpenChannel(options);

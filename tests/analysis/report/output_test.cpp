@@ -86,6 +86,47 @@ TEST(EmitReport, WritesEveryFile) {
   EXPECT_LT(num_red, 1000U);
 }
 
+TEST(EmitReport, RemovesTheFilesOfTheReportThatItReplacesAndNoOthers) {
+  const TemporaryFolder folder;
+  const auto out = folder.Write("here", "").parent_path() / "out";
+  Report report = MadeReport();
+  testing::internal::CaptureStdout();
+  EmitReport(report, {out, false}, "made");
+  WriteFileWhole(out / "csv/mine.csv", "mine");
+  for (Section& section : report.sections) {
+    section.tables.clear();
+    section.charts.clear();
+    section.pictures.clear();
+  }
+  EmitReport(report, {out, false}, "other");
+  EXPECT_TRUE(std::filesystem::exists(out / "csv/dropout_by_range.csv"));
+  EmitReport(report, {out, false}, "made");
+  testing::internal::GetCapturedStdout();
+  EXPECT_FALSE(std::filesystem::exists(out / "csv/dropout_by_range.csv"));
+  EXPECT_EQ(ReadFileWhole(out / "csv/mine.csv"), "mine");
+  EXPECT_TRUE(std::filesystem::is_empty(out / "charts"));
+}
+
+TEST(EmitReport, ReplacesAFileOfItsNameThatIsNoReport) {
+  for (const std::string text : {"", "{", "[]", R"({"sections": [{"tables": [{"key": 1}]}]})"}) {
+    const TemporaryFolder folder;
+    const auto out = folder.Write("made.json", text).parent_path();
+    testing::internal::CaptureStdout();
+    EmitReport({.title = "Empty"}, {out, false}, "made");
+    testing::internal::GetCapturedStdout();
+    EXPECT_THAT(ReadFileWhole(out / "made.json"), HasSubstr("Empty"));
+  }
+}
+
+TEST(ReportFolder, IsCheckedAndNotLeft) {
+  const TemporaryFolder folder;
+  const auto file = folder.Write("here", "");
+  CheckReportFolder({});
+  CheckReportFolder(file.parent_path() / "out");
+  EXPECT_FALSE(std::filesystem::exists(file.parent_path() / "out"));
+  EXPECT_EQ(MessageOf([&] { CheckReportFolder(file); }), file.string() + ": not a directory");
+}
+
 TEST(EmitReport, PrintsAndWritesNoFiles) {
   testing::internal::CaptureStdout();
   EmitReport(MadeReport(), {{}, true}, "made");

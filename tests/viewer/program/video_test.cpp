@@ -58,6 +58,17 @@ TEST_F(Video, ReplacesNothing) {
   EXPECT_EQ(NamesIn(PathOf("taken")), (std::set<std::string>{"note.txt"}));
 }
 
+TEST_F(Video, AndScreenshotsKeepOutOfTheSequence) {
+  for (const std::string& out :
+       {"--video " + path_ + "/film", "--screenshot " + path_ + "/v.png"}) {
+    const Ended ended = View(out + " " + path_);
+    EXPECT_EQ(ended.status, 1);
+    EXPECT_TRUE(
+        ended.said.starts_with("error: " + out.substr(0, out.find(' ')) + ": must be outside "))
+        << ended.said;
+  }
+}
+
 TEST_F(Video, LeavesWholePicturesOnlyWhenItIsKilled) {
   std::filesystem::create_directories(PathOf("clouds"));
   for (int i = 0; i < 300; ++i) {

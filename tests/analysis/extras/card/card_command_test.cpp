@@ -87,9 +87,9 @@ TEST(CardCommand, KeepsOutOfTheDataSet) {
   const fs::path out = set / "card";
   const Ended run = Analyze("card " + set.string() + " --out " + out.string());
   EXPECT_EQ(run.status, 1);
-  EXPECT_EQ(run.said,
-            "--out: must be outside the data set, which holds nothing but its own files (got " +
-                out.string() + ")\n");
+  EXPECT_EQ(run.said, "--out: must be outside " + fs::canonical(set).string() +
+                          ", which holds nothing but what belongs to its scenarios.jsonl (got " +
+                          out.string() + ")\n");
   EXPECT_FALSE(fs::exists(out));
 }
 

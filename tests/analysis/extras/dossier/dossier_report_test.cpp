@@ -157,6 +157,15 @@ TEST_F(DossierOfAStudy, BeginsWithTheQuestionAndAnswersOrOpensEachOfTheRules) {
   }
 }
 
+TEST_F(DossierOfAStudy, KeepsOutOfTheStudy) {
+  const std::string study = study_->directory.string();
+  const Ended ended = RunCommand(RAILCAST_ANALYZE " dossier " + study + " --out " + study);
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_EQ(ended.said, "--out: must be outside " + std::filesystem::canonical(study).string() +
+                            ", which holds nothing but what belongs to its approaches.jsonl (got " +
+                            study + ")\n");
+}
+
 TEST_F(DossierOfAStudy, IsWrittenWholeAndOnAtMostTwentyPages) {
   if (RunCommand("command -v weasyprint").status != 0) GTEST_SKIP() << "weasyprint is missing";
   const std::filesystem::path out = directory_->path() / "dossier";

@@ -221,6 +221,17 @@ TEST(ReplayCommand, WritesItsSummaryAndWhatWasDamaged) {
   EXPECT_THAT(json.at("fault").get<std::string>(), testing::HasSubstr("000002.pcd"));
 }
 
+TEST(ReplayCommand, WritesNoSummaryIntoTheRecording) {
+  const TemporaryDirectory folder;
+  const fs::path run =
+      MadeRun(ReplayedScenario(folder.path()), fs::canonical(folder.path()) / "run", "--frames 1");
+  const std::string summary = (run / "run.json").string();
+  EXPECT_THAT(Generate("replay " + run.string() + " --to 127.0.0.1:9 --summary " + summary),
+              ExitsWith(1, "--summary: must be outside " + run.string() +
+                               ", which holds nothing but what belongs to its frames.jsonl (got " +
+                               summary + ")\n"));
+}
+
 TEST(ReplayCommand, EndsInOrderOnASignal) {
   const TemporaryDirectory folder;
   const fs::path run =

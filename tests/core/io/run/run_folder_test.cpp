@@ -1,0 +1,103 @@
+#include "core/io/run/run_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "core/io/record/record_text.h"
+#include "core/io/run/sensors_record.h"
+#include "core/io/write_file.h"
+#include "tests/core/io/message_of.h"
+#include "tests/core/io/temporary_directory.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+class OutputPlaces : public testing::Test {
+ protected:
+  void Write(const std::string& name, const std::string& text = "{}") const {
+    fs::create_directories(Path(name).parent_path());
+    WriteFileWhole(Path(name), text);
+  }
+  [[nodiscard]] fs::path Path(const std::string& name) const { return folder_ / name; }
+  [[nodiscard]] std::string Refusal(const std::string& own_file, const fs::path& got) const {
+    return "--out: must be outside " + Path("run").string() +
+           ", which holds nothing but what belongs to its " + own_file + " (got " + got.string() +
+           ")";
+  }
+  static std::string FaultOf(const fs::path& out, bool may_be_own = false) {
+    return MessageOf([&] { CheckIsOutside("--out", out, may_be_own); });
+  }
+
+ private:
+  TemporaryDirectory directory_;
+  fs::path folder_ = fs::canonical(directory_.path());
+};
+
+TEST_F(OutputPlaces, AreNotInFoldersOfRailcast) {
+  for (const std::string name : {"frames.jsonl", "insert.jsonl", "convert.jsonl", "scenarios.jsonl",
+                                 "approaches.jsonl", "scene.survey"}) {
+    Write("run/" + name);
+    for (const std::string out : {"run", "run/stats", "run/frames/more"}) {
+      EXPECT_EQ(FaultOf(Path(out)), Refusal(name, Path(out)));
+    }
+    EXPECT_EQ(FaultOf(Path("run"), true), "no error");
+    EXPECT_EQ(FaultOf(Path("run/own"), true), Refusal(name, Path("run/own")));
+    EXPECT_EQ(FaultOf(Path("run_stats")), "no error");
+    fs::remove_all(Path("run"));
+  }
+}
+
+TEST_F(OutputPlaces, AreNotBesideTheRunsOfSeveralSensors) {
+  SensorsRecord record;
+  record.sensors.push_back({.name = "front", .folder = "front", .num_frames = 1});
+  Write("run/sensors.json", RecordFile(record));
+  EXPECT_EQ(FaultOf(Path("run/stats")), Refusal("sensors.json", Path("run/stats")));
+}
+
+TEST_F(OutputPlaces, MayBeBesideFilesThatUsersNameAsRailcastDoes) {
+  for (const std::string name : {"run.json", "dataset.json", "study.json", "sensors.json"}) {
+    Write("mine/" + name);
+  }
+  EXPECT_EQ(FaultOf(Path("mine/stats")), "no error");
+}
+
+TEST_F(OutputPlaces, AreFollowed) {
+  Write("run/frames.jsonl");
+  fs::create_directory_symlink("run", Path("link"));
+  EXPECT_EQ(FaultOf(Path("link/stats")), Refusal("frames.jsonl", Path("link/stats")));
+  const fs::path before = fs::current_path();
+  fs::current_path(Path("run"));
+  const std::string within = FaultOf("stats");
+  fs::current_path(before);
+  EXPECT_EQ(within, Refusal("frames.jsonl", "stats"));
+}
+
+TEST_F(OutputPlaces, OfFilesAreNeitherInputsNorEachOther) {
+  Write("a.json");
+  Write("clouds/0.pcd");
+  fs::create_hard_link(Path("a.json"), Path("same.json"));
+  const auto fault_of = [&](const fs::path& summary, const fs::path& picture) {
+    return MessageOf([&] {
+      CheckOutputFiles({{"SCENARIO", Path("a.json")}, {"RECORDING", Path("clouds")}},
+                       {{"--summary", summary}, {"--picture", picture}});
+    });
+  };
+  EXPECT_EQ(fault_of(Path("b.json"), Path("c.png")), "no error");
+  EXPECT_EQ(fault_of("", ""), "no error");
+  EXPECT_EQ(fault_of("/dev/null", "/dev/null"), "no error");
+  for (const std::string name : {"a.json", "clouds/../a.json", "same.json"}) {
+    EXPECT_EQ(fault_of(Path(name), ""),
+              "--summary: must not be SCENARIO or in it (got " + Path(name).string() + ")");
+  }
+  EXPECT_EQ(fault_of("", Path("clouds/0.pcd")), "--picture: must not be RECORDING or in it (got " +
+                                                    Path("clouds/0.pcd").string() + ")");
+  EXPECT_EQ(fault_of(Path("p.png"), Path("p.png")),
+            "--picture: must not be --summary or in it (got " + Path("p.png").string() + ")");
+}
+
+}  // namespace
+}  // namespace railcast
