@@ -59,15 +59,6 @@ std::string ScenarioDifference(const Json& found, const Json& ours) {
   return "holds a run with another content of " + changed->at("name").get<std::string>();
 }
 
-// Returns the name of the command-line option for a key.
-std::string NameOf(const std::string& key) {
-  if (key == "num_frames") return "--frames";
-  if (key == "start_frame") return "--start-frame";
-  if (key == "stride") return "--stride";
-  if (key == "certify") return "--certify";
-  return key;
-}
-
 // What another value of a key of run.json means.
 std::string RunDifference(const std::string& key, const Json& found, const Json& ours) {
   if (key == "commands_xxh3") {
@@ -76,11 +67,7 @@ std::string RunDifference(const std::string& key, const Json& found, const Json&
   if (key == "scenario_xxh3" || key == "inputs") {
     return ScenarioDifference(MemberOf(found, "inputs"), MemberOf(ours, "inputs"));
   }
-  // A run of all frames has no such key.
-  static const Json all = 1;
-  const bool is_of_all = key == "stride" && !ours.contains(key);
-  return "holds another run: " +
-         ValuesText(NameOf(key), MemberOf(found, key), is_of_all ? all : MemberOf(ours, key));
+  return "holds another run: " + ValuesText(key, MemberOf(found, key), MemberOf(ours, key));
 }
 
 }  // namespace

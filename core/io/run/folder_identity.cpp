@@ -1,5 +1,8 @@
 #include "core/io/run/folder_identity.h"
 
+#include <algorithm>
+#include <array>
+
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/write_file.h"
@@ -7,8 +10,27 @@
 namespace railcast {
 namespace {
 
+// A key as the user knows it, and what its absence means.
+struct KeyText {
+  std::string_view key;
+  std::string_view name;
+  std::string_view absent = "nothing";
+};
+
+constexpr std::array kKeyTexts = {KeyText{"num_frames", "--frames"},
+                                  KeyText{"start_frame", "--start-frame"},
+                                  KeyText{"stride", "--stride", "1"},
+                                  KeyText{"format", "--format"},
+                                  KeyText{"fields", "--fields"},
+                                  KeyText{"merged", "--merged"},
+                                  KeyText{"points_alone", "--points-alone"},
+                                  KeyText{"shard", "--shard", "1/1"},
+                                  KeyText{"rare", "--rare", "off"},
+                                  KeyText{"certify", "--certify", "off"}};
+
 std::string IdentityText(const Json& value) {
   if (value.is_null()) return "nothing";
+  if (value.is_boolean()) return value.get<bool>() ? "on" : "off";
   if (value.is_string()) return ShownText(value.get_ref<const std::string&>());
   return value.is_primitive() ? value.dump() : value.type_name();
 }
@@ -42,8 +64,15 @@ const Json& MemberOf(const Json& object, const std::string& key) {
   return member == object.end() ? nothing : *member;
 }
 
-std::string ValuesText(const std::string& name, const Json& found, const Json& ours) {
-  return "its " + name + " is " + IdentityText(found) + " (got " + IdentityText(ours) + ")";
+std::string ValuesText(const std::string& key, const Json& found, const Json& ours) {
+  const auto* const known = std::ranges::find(kKeyTexts, key, &KeyText::key);
+  const KeyText text = known == kKeyTexts.end() ? KeyText{key, key} : *known;
+  const auto show = [&](const Json& value) {
+    if (value.is_null()) return std::string(text.absent);
+    const bool is_share = key == "certify" && value.is_number();
+    return is_share ? ShortText(100.0 * value.get<double>()) + "%" : IdentityText(value);
+  };
+  return "its " + std::string(text.name) + " is " + show(found) + " (got " + show(ours) + ")";
 }
 
 bool TakeFolder(const FolderIdentity& ours, const std::string& run, const DifferenceText& text_of) {

@@ -41,9 +41,9 @@ struct FolderIdentity {
 /// @throws InputError that names the first difference and ends with the advice.
 void CheckIsSame(const FolderIdentity& ours, const DifferenceText& text_of);
 
-/// "its seed is 5 (got 6)"; "nothing" stands for a value that is missing.
-/// @param name Of the key, as the user knows it.
-[[nodiscard]] std::string ValuesText(const std::string& name, const Json& found, const Json& ours);
+/// "its seed is 5 (got 6)", "its --stride is 1 (got 2)": with the name of the key's option, and
+/// with what the absence of a value means.
+[[nodiscard]] std::string ValuesText(const std::string& key, const Json& found, const Json& ours);
 
 /// The member of an object; null if there is none.
 [[nodiscard]] const Json& MemberOf(const Json& object, const std::string& key);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/join.h"
 #include "core/base/text.h"
 #include "core/extras/recipe/dataset_record.h"
 #include "core/extras/recipe/recipe.h"
@@ -38,20 +39,20 @@ struct DatasetOptions {
   bool has_format = false;
 };
 
-// Writes the scenarios that frames would be made of, without frames.
-int WriteScenarios(const Recipe& recipe, const DatasetOptions& options) {
-  const ScenarioDrawer drawer(recipe);
+// Writes the scenarios that frames would be made of, without frames; returns false if it is
+// stopped.
+bool WriteScenarios(const Recipe& recipe,
+                    const ScenarioDrawer& drawer,
+                    const DatasetOptions& options) {
   const fs::path& directory = options.choices.directory;
-  MakeEmptyFolder(directory);
   fs::create_directories((directory / kSplitFiles[0]).parent_path());
   const Shard& shard = options.choices.shard;
   const std::uint32_t num_scenarios = shard.NumOf(recipe.num_scenarios);
   const ProgressLine progress;
   ScenarioReport report;
   PerPart<std::string> folders;
-  CatchStopSignals();
   for (std::uint32_t i = 0; i < num_scenarios; ++i) {
-    if (StopRequested()) return kExitInterrupted;
+    if (StopRequested()) return false;
     progress.Show("scenarios", static_cast<double>(i) / num_scenarios);
     const std::uint32_t number = shard.ScenarioAt(i);
     const DrawnScenario drawn = drawer.Draw(number);
@@ -69,7 +70,28 @@ int WriteScenarios(const Recipe& recipe, const DatasetOptions& options) {
   }
   WriteFileWhole(directory / kReportFile, report.Write(recipe.split).dump(2) + "\n");
   std::cout << ShownLines(report.Text(recipe.split));
-  return kExitSuccess;
+  return true;
+}
+
+// As above, in an empty folder, which is empty again if they are not all written.
+int RunScenarios(const Recipe& recipe, const DatasetOptions& options) {
+  const ScenarioDrawer drawer(recipe);
+  MakeEmptyFolder(options.choices.directory);
+  const auto clear = [&] {
+    for (const auto& entry : fs::directory_iterator(options.choices.directory)) {
+      fs::remove_all(entry.path());
+    }
+  };
+  CatchStopSignals();
+  try {
+    if (WriteScenarios(recipe, drawer, options)) return kExitSuccess;
+  } catch (...) {
+    clear();
+    throw;
+  }
+  clear();
+  std::cerr << "interrupted; the same command begins anew\n";
+  return kExitInterrupted;
 }
 
 std::string SummaryOfRun(const Recipe& recipe,
@@ -80,8 +102,8 @@ std::string SummaryOfRun(const Recipe& recipe,
   if (result.was_complete) {
     text << "already complete: nothing to do\n";
   } else {
-    text << "made " << result.num_done - result.num_resumed << " scenarios, " << result.num_frames
-         << " frames in " << result.elapsed_s << " s";
+    text << "made " << Amount(result.num_done - result.num_resumed, "scenarios, ")
+         << Amount(result.num_frames, "frames in ") << result.elapsed_s << " s";
     if (result.num_frames > 0) {
       text << " (" << static_cast<double>(result.num_frames) / result.elapsed_s << " frames/s)";
     }
@@ -134,7 +156,7 @@ int RunDatasetCommand(DatasetOptions options) {
   if (recipe.has_plans() && !options.has_format) options.choices.format = "same";
   if (!options.choices.must_certify) options.choices.certify = UsualCertify(options.choices);
   static_cast<void>(CertifiedShareOf(options.choices.certify));
-  if (options.has_scenarios_only) return WriteScenarios(recipe, options);
+  if (options.has_scenarios_only) return RunScenarios(recipe, options);
   // The folder can be continued however the program ends.
   CatchStopSignals();
   ScenarioProgress line;
@@ -158,13 +180,14 @@ struct MergeOptions {
 };
 
 int RunMerge(const MergeOptions& options) {
+  CheckIsOutside("--out", options.out, true);
   ScenarioProgress line;
   const std::uint32_t num_scenarios =
       MergeShards(options.shards, options.out, [&](std::uint32_t num_done, std::uint32_t num_all) {
         line.Show(num_done, num_all, static_cast<double>(num_done) / num_all);
       });
   line.End();
-  std::cout << num_scenarios << " scenarios of " << options.shards.size() << " shards in "
+  std::cout << Amount(num_scenarios, "scenarios of ") << Amount(options.shards.size(), "shards in ")
             << ShownPath(options.out) << "\n";
   return kExitSuccess;
 }
@@ -180,11 +203,15 @@ void AddDataset(ProgramOptions& app, ProgramCommand& command) {
       .AddOption("--shard", options->shard,
                  "I/N: make only every N-th scenario, beginning with the I-th")
       .Check({ShardRule, ""});
-  dataset.AddFlag("--scenarios-only", options->has_scenarios_only,
-                  "Write the scenarios without frames, to a new or an empty folder, and report "
-                  "their parts, bases, weathers, draws and objects");
   options->choices.certify = "1%";
+  const std::size_t num_before = dataset.options().size();
   AddRunChoices(dataset, options->choices);
+  const std::vector<Option> all = dataset.options();
+  const Option scenarios_only =
+      dataset.AddFlag("--scenarios-only", options->has_scenarios_only,
+                      "Write the scenarios without frames, to a new or an empty folder, and report "
+                      "their parts, bases, weathers, draws and objects");
+  for (std::size_t i = num_before; i < all.size(); ++i) scenarios_only.Excludes(all[i]);
   dataset.Footer(
       "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"
       "command continues).");

@@ -99,8 +99,8 @@ std::string PartsText(const PerPart<std::uint32_t>& parts, const SplitSpec& spli
   for (const auto& [value, name] : kEnumNames<Split>) {
     const auto part = static_cast<std::size_t>(value);
     text << "  " << std::left << std::setw(6) << name << std::right << std::setw(9) << parts[part]
-         << " scenarios, " << 100.0 * parts[part] / num << " % (asked for: " << 100.0 * shares[part]
-         << " %)\n";
+         << (parts[part] == 1 ? " scenario, " : " scenarios, ") << 100.0 * parts[part] / num
+         << " % (asked for: " << 100.0 * shares[part] << " %)\n";
   }
   return text.str();
 }

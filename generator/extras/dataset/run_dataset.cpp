@@ -100,9 +100,9 @@ void CheckChoices(const Recipe& recipe, const DatasetChoices& choices) {
 
 /// Checks that a scenario of the recipe can be certified if this is asked for. Mostly, the first
 /// one can be.
-void CheckCertify(const Recipe& recipe, const DatasetChoices& choices) {
+void CheckCertify(const ScenarioDrawer& drawer, const DatasetChoices& choices) {
   if (!choices.must_certify || !CertifiedShareOf(choices.certify)) return;
-  const ScenarioDrawer drawer(recipe);
+  const Recipe& recipe = drawer.recipe();
   for (std::uint32_t i = 0; i < recipe.num_scenarios; ++i) {
     const DrawnScenario drawn = drawer.Draw(i);
     const bool can_certify = AtPlace(PlaceOf(recipe, i), [&] {
@@ -114,6 +114,39 @@ void CheckCertify(const Recipe& recipe, const DatasetChoices& choices) {
   throw InputError("--certify: must be left out: all scenarios of " + ShownPath(recipe.file) +
                    (recipe.has_plans() ? " have no objects, or" : "") +
                    " are of fidelity reference, which it compares with");
+}
+
+RunPlan PlanScenario(const Recipe& recipe,
+                     const DatasetChoices& choices,
+                     std::uint32_t number,
+                     ScenarioSpec scenario) {
+  AtPlace(ShownPath(recipe.file) + ": /", [&] { CheckNamesOfFolders(scenario); });
+  return PlanRun(std::move(scenario), ChoicesOfScenario(recipe, choices, number),
+                 ShownPath(recipe.file) + ": scenario " + std::to_string(number));
+}
+
+/// Checks that the first scenario of a new data set can be made as chosen, before its folder is
+/// taken: with other choices the folder would be that of another data set.
+void CheckFirstScenario(const ScenarioDrawer& drawer, const DatasetChoices& choices) {
+  const Recipe& recipe = drawer.recipe();
+  const std::uint32_t number = choices.shard.ScenarioAt(0);
+  if (fs::exists(choices.directory / kDatasetFile) || number >= recipe.num_scenarios) return;
+  DrawnScenario drawn = drawer.Draw(number);
+  if (drawn.run) {
+    AtPlace(PlaceOf(recipe, number), [&] { static_cast<void>(PlanOf(drawn)); });
+    return;
+  }
+  RunPlan plan = PlanScenario(recipe, choices, number, std::move(drawn.scenario));
+  if (!plan.is_merged) return;
+  const FrameMaker maker(plan.scenario, choices.num_threads, choices.isa);
+  SetFrames(maker, plan);
+  CheckCanMerge(maker, plan);
+}
+
+DatasetSpec CheckedSpec(const ScenarioDrawer& drawer, const DatasetChoices& choices) {
+  CheckCertify(drawer, choices);
+  CheckFirstScenario(drawer, choices);
+  return SpecOfDataset(drawer.recipe(), choices, drawer.bases());
 }
 
 /// Lets a scenario be gone on with whose folder is known to be the data set's, even if it does not
@@ -133,7 +166,7 @@ class DatasetRun {
         choices_(choices),
         hooks_(hooks),
         drawer_(recipe),
-        directory_(SpecOfDataset(recipe, choices, drawer_.bases())),
+        directory_(CheckedSpec(drawer_, choices)),
         scenery_(directory_.spec().record.isa) {}
 
   DatasetResult Run() {
@@ -191,9 +224,7 @@ class DatasetRun {
     const bool is_known = fs::exists(choices_.directory / SequenceFolderOf(number));
     DrawnScenario drawn = drawer_.Draw(number);
     if (drawn.run) return MakeOfPlan(number, is_known, drawn, turn);
-    AtPlace(ShownPath(recipe_.file) + ": /", [&] { CheckNamesOfFolders(drawn.scenario); });
-    RunPlan plan = PlanRun(std::move(drawn.scenario), ChoicesOfScenario(recipe_, choices_, number),
-                           ShownPath(recipe_.file) + ": scenario " + std::to_string(number));
+    RunPlan plan = PlanScenario(recipe_, choices_, number, std::move(drawn.scenario));
     FrameMaker maker(plan.scenario, MakeSimulators(plan.scenario, turn.num_threads, scenery_));
     SetFrames(maker, plan);
     // A recipe may draw the reference itself for some of its scenarios, which needs no certificate.
@@ -300,7 +331,6 @@ DatasetResult RunDataset(const Recipe& recipe,
                          const DatasetChoices& choices,
                          const DatasetHooks& hooks) {
   CheckChoices(recipe, choices);
-  CheckCertify(recipe, choices);
   return DatasetRun(recipe, choices, hooks).Run();
 }
 

@@ -250,5 +250,16 @@ TEST(Stride, BelongsToTheRun) {
             place + "holds another run: its --stride is 5 (got 1); choose another --out");
 }
 
+TEST(Stride, IsOneWhereTheRunDoesNotSay) {
+  const TemporaryDirectory directory;
+  SequenceSpec spec = SparseRun(directory.path());
+  spec.stride = 1;
+  (void)RunSequence(spec, MakeExampleFrame, NoHooks());
+  spec.stride = 2;
+  EXPECT_EQ(MessageOf([&] { (void)RunSequence(spec, MakeExampleFrame, NoHooks()); }),
+            directory.path().string() +
+                ": holds another run: its --stride is 1 (got 2); choose another --out");
+}
+
 }  // namespace
 }  // namespace railcast

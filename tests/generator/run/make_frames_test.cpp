@@ -298,7 +298,7 @@ TEST(RunSequence, RefusesTheDirectoryOfAnotherRun) {
             place + "holds another run: its seed is 5 (got 6); choose another --out");
   other = ExampleRun(directory.path(), "ply");
   EXPECT_EQ(RunMessage(other),
-            place + "holds another run: its format is pcd (got ply); choose another --out");
+            place + "holds another run: its --format is pcd (got ply); choose another --out");
   other = first;
   other.start_frame = 0;
   EXPECT_EQ(RunMessage(other),
@@ -309,6 +309,7 @@ TEST(RunSequence, RefusesTheDirectoryOfAnotherRun) {
             place + "holds another run: its --frames is 6 (got 7); choose another --out");
   other = first;
   other.files.fields = FieldSelection("x,y,z");
+  EXPECT_NE(RunMessage(other).find("its --fields is x,y,z,"), std::string::npos);
   EXPECT_NE(RunMessage(other).find("(got x,y,z); choose another --out"), std::string::npos);
 }
 

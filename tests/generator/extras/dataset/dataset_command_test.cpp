@@ -27,8 +27,10 @@ class DatasetCommand : public testing::Test {
  protected:
   [[nodiscard]] fs::path Path(const std::string& name) const { return directory_.path() / name; }
   [[nodiscard]] std::string Command(const std::string& out, const std::string& options = "") const {
-    return "dataset " + recipe_.string() + " --threads 1 --out " + Path(out).string() + " " +
-           options;
+    return Scenarios(out, "--threads 1 " + options);
+  }
+  [[nodiscard]] std::string Scenarios(const std::string& out, const std::string& options) const {
+    return "dataset " + recipe_.string() + " --out " + Path(out).string() + " " + options;
   }
   TemporaryDirectory directory_;
   fs::path recipe_ = WriteProjectRecipe(directory_.path() / "project", ProjectRecipe());
@@ -51,14 +53,16 @@ TEST_F(DatasetCommand, SaysWhatItMadeAndHowToMerge) {
                        HasSubstr("3 of 3 scenarios in " + Path("1").string()),
                        HasSubstr("shard 1/2 is complete; railcast-generate merge makes one"))));
   EXPECT_EQ(Generate(Command("2", "--shard 2/2")).status, 0);
-  EXPECT_THAT(Generate("merge " + Path("1").string() + " " + Path("2").string() + " --out " +
-                       Path("merged").string()),
+  const std::string merge = "merge " + Path("1").string() + " " + Path("2").string() + " --out ";
+  EXPECT_THAT(Generate(merge + Path("1/merged").string()),
+              ExitsWith(1, testing::StartsWith("--out: must be outside ")));
+  EXPECT_THAT(Generate(merge + Path("merged").string()),
               ExitsWith(0, "6 scenarios of 2 shards in " + Path("merged").string() + "\n"));
   EXPECT_THAT(Generate(Command("merged")).said, HasSubstr("already complete: nothing to do\n"));
 }
 
 TEST_F(DatasetCommand, WritesTheScenariosAlone) {
-  EXPECT_THAT(Generate(Command("scenarios", "--scenarios-only")), ExitsWith(0));
+  EXPECT_THAT(Generate(Scenarios("scenarios", "--scenarios-only")), ExitsWith(0));
   for (int i = 0; i < 6; ++i) {
     const fs::path file =
         Path("scenarios/sequences/000/00000" + std::to_string(i)) / "scenario.resolved.json";
@@ -72,7 +76,7 @@ TEST_F(DatasetCommand, ReportsThePartsOfScenariosAlone) {
   recipe["objects"][0]["count"] = {{"type", "choice"}, {"values", {1}}};
   recipe["split"] = {{"train", 0.7}, {"val", 0.15}, {"test", 0.15}};
   (void)WriteProjectRecipe(directory_.path() / "project", recipe);
-  const Ended run = Generate(Command("scenarios", "--scenarios-only"));
+  const Ended run = Generate(Scenarios("scenarios", "--scenarios-only"));
   EXPECT_THAT(run.said, HasSubstr("  train        14 scenarios, 70.0 % (asked for: 70.0 %)\n"
                                   "  val           3 scenarios, 15.0 % (asked for: 15.0 %)\n"
                                   "  test          3 scenarios, 15.0 % (asked for: 15.0 %)\n"
@@ -89,6 +93,43 @@ TEST_F(DatasetCommand, ReportsThePartsOfScenariosAlone) {
   const Json report = Json::parse(ReadFileWhole(Path("scenarios/report.json")));
   EXPECT_EQ(report.at("splits").at("train").at("scenarios"), 14);
   EXPECT_EQ(report.at("splits").at("train").at("asked"), 0.7);
+}
+
+TEST_F(DatasetCommand, RefusesChoicesOfFramesWhereItWritesNone) {
+  for (const std::string choice :
+       {"--format kitti", "--fields x", "--merged", "--isa avx2", "--threads 3", "--certify 5%"}) {
+    const std::string option = choice.substr(0, choice.find(' '));
+    EXPECT_THAT(Generate(Scenarios("out", "--scenarios-only " + choice)),
+                ExitsWith(2, HasSubstr(option + ": must not come with --scenarios-only\n")));
+  }
+}
+
+TEST_F(DatasetCommand, LeavesAnEmptyFolderWhereItIsStoppedInScenariosAlone) {
+  nlohmann::json recipe = ProjectRecipe();
+  recipe["num_scenarios"] = 20'000;
+  (void)WriteProjectRecipe(directory_.path() / "project", recipe);
+  const std::string log = Path("log").string();
+  EXPECT_THAT(RunCommand(std::string(RAILCAST_GENERATE) + " " +
+                         Scenarios("out", "--scenarios-only") + " > " + log +
+                         " 2>&1 & for i in $(seq 1000); do [ -d " + Path("out/sequences").string() +
+                         " ] && break; sleep 0.02; done; kill $!; wait $!; s=$?; tail -n 1 " + log +
+                         "; (exit $s)"),
+              ExitsWith(130, "interrupted; the same command begins anew\n"));
+  EXPECT_TRUE(fs::is_empty(Path("out")));
+}
+
+TEST_F(DatasetCommand, TakesNoFolderForWhatItCannotMake) {
+  for (const char* const choices :
+       {"--merged", "--format kitti --fields x", "--format osi --fields x,y"}) {
+    EXPECT_THAT(Generate(Command("out", choices)), ExitsWith(1)) << choices;
+    EXPECT_FALSE(fs::exists(Path("out"))) << choices;
+  }
+  nlohmann::json recipe = ProjectRecipe();
+  recipe["objects"][0]["draws"]["/d_m"] = {{"type", "uniform"}, {"min", 30}, {"max", 31}};
+  recipe["objects"][0]["gauge"] = "foul";
+  (void)WriteProjectRecipe(directory_.path() / "project", recipe);
+  EXPECT_THAT(Generate(Command("out")), ExitsWith(1));
+  EXPECT_FALSE(fs::exists(Path("out")));
 }
 
 TEST_F(DatasetCommand, RefusesShardsThatAreNone) {
