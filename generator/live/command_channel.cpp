@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/join.h"
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
 #include "core/scenario/command_log.h"
@@ -256,7 +257,17 @@ void CommandLoop::End(const std::string& reason) {
   step_.reset();
   if (!waiting) waiting = NextOf(0);
   for (; waiting; waiting = NextOf(0)) waiting->source->Refuse(waiting->request, {reason});
-  if (log_) log_->Append(CommandLogEnd(num_logged_));
+  if (log_) Log(CommandLogEnd(num_logged_));
+}
+
+void CommandLoop::Log(const std::string& line) {
+  try {
+    log_->Append(line);
+  } catch (const InputError& error) {
+    log_fault_ =
+        std::string(error.what()) + "; the log ends after " + Amount(num_logged_, "commands");
+    log_.reset();
+  }
 }
 
 bool CommandLoop::Handle(const Waiting& waiting, std::int64_t stamp_ns) {
@@ -277,7 +288,8 @@ bool CommandLoop::Handle(const Waiting& waiting, std::int64_t stamp_ns) {
     source->Refuse(request, {error.what()});
     return false;
   }
-  if (log_) log_->Append(CommandLogLine({time_ns, request.command}, ++num_logged_));
+  if (log_) Log(CommandLogLine({time_ns, request.command}, num_logged_ + 1));
+  if (log_) ++num_logged_;
   source->Acknowledge(request, time_ns);
   return is_reset;
 }

@@ -138,6 +138,8 @@ class CommandLoop {
   void EndFrames(std::int64_t stamp_ns);
   /// Refuses all waiting commands when the run has ended, and ends the log.
   void End(const std::string& reason);
+  /// Why the log ends early; absent while it does not.
+  [[nodiscard]] const std::optional<std::string>& log_fault() const { return log_fault_; }
 
  private:
   struct Waiting {
@@ -150,12 +152,15 @@ class CommandLoop {
   [[nodiscard]] bool IsStep(const Waiting& waiting) const;
   /// @return Whether the command was a reset.
   [[nodiscard]] bool Handle(const Waiting& waiting, std::int64_t stamp_ns);
+  /// Appends to the log, which ends if that fails: the run goes on without it.
+  void Log(const std::string& line);
 
   FrameMaker& maker_;
   std::vector<CommandSource*> sources_;
   bool lockstep_;
   std::optional<LineFile> log_;
   std::size_t num_logged_ = 0;
+  std::optional<std::string> log_fault_;
   std::optional<Waiting> step_;  ///< The step under way.
 };
 

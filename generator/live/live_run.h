@@ -105,6 +105,7 @@ struct LiveResult {
   std::vector<LiveRecord> records;  ///< By sensor.
   /// Why the next frame could not be made, if that ended the run.
   std::optional<std::string> fault;
+  std::optional<std::string> log_fault{};  ///< CommandLoop::log_fault(); not set here.
 };
 
 /// Makes and sends frames at their rate until the duration is over, the run is stopped or a frame

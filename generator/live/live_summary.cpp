@@ -136,11 +136,12 @@ std::string LiveSummaryJson(std::string_view command,
       sensors.back()["certificate"] = Json::parse(RecordText(*record.certificate));
     }
   }
-  const Json fault = result.fault ? Json(*result.fault) : Json();
+  const auto json = [](const auto& fault) { return fault ? Json(*fault) : Json(); };
   const Json summary = {{"command", command},
                         {"sensors", sensors},
                         {"capture_faults", capture_faults},
-                        {"fault", fault}};
+                        {"log_fault", json(result.log_fault)},
+                        {"fault", json(result.fault)}};
   return summary.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

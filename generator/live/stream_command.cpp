@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/io/stream/stream_encoder.h"
 #include "core/io/write_file.h"
@@ -261,6 +262,7 @@ int ReportRun(const LiveResult& result, const LiveStreams& streams, const Stream
   const std::vector<std::string> capture_faults = streams.CaptureFaults();
   for (const std::string& fault : capture_faults)
     std::cout << "capture: " << ShownLines(fault) << "\n";
+  if (result.log_fault) std::cout << "log: " << ShownLines(*result.log_fault) << "\n";
   if (options.summary) {
     WriteFileWhole(*options.summary, LiveSummaryJson("stream", result, streams.Delivered(),
                                                      capture_faults, has_times));
@@ -268,7 +270,8 @@ int ReportRun(const LiveResult& result, const LiveStreams& streams, const Stream
   if (result.fault) std::cerr << ShownLines(*result.fault) << "\n";
   const std::string late = options.fails_late ? LateText(result.records) : "";
   if (!late.empty()) std::cerr << "--fail-late: " << late << "\n";
-  const bool is_failed = result.fault || !capture_faults.empty() || !late.empty();
+  const bool is_failed =
+      result.fault || result.log_fault || !capture_faults.empty() || !late.empty();
   return is_failed ? kExitFailure : kExitSuccess;
 }
 
@@ -287,6 +290,11 @@ int RunStream(const StreamOptions& options) {
   const ScenarioSpec scenario = ReadForStream(options);
   CheckOptionsTogether(options, SensorNames(scenario).size());
   const std::optional<double> certified_share = CertifiedShareOf(options.certify);
+  CheckOutputFiles(
+      {{"SCENARIO", options.scenario}, {"--calibration", options.calibration.value_or("")}},
+      {{"--pcap", options.pcap.value_or("")},
+       {"--commands-log", options.commands_log.value_or("")},
+       {"--summary", options.summary.value_or("")}});
   if (options.summary) CheckCanWrite(*options.summary);
   const std::vector<SensorStreamSpec> plan = PlanStreams(options, scenario);
   const LiveExtras& extras = LiveExtras::Get();
@@ -319,7 +327,10 @@ int RunStream(const StreamOptions& options) {
   SetClocks(streams, options, spec.lead_ns);
   control.Begin();
   LiveResult result = RunBy(options, spec, streams, control);
-  if (commands) commands->End(result.fault.value_or("the run has ended"));
+  if (commands) {
+    commands->End(result.fault.value_or("the run has ended"));
+    result.log_fault = commands->log_fault();
+  }
   streams.Finish();
   control.End();
   streams.AddCertificates(result.records);

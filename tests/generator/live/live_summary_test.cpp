@@ -49,6 +49,7 @@ TEST(LiveSummaryJson, IsOneLineOfTheSameNumbers) {
   const nlohmann::json summary = parsed({{record}, std::nullopt}, true);
   EXPECT_EQ(summary.at("command"), "stream");
   EXPECT_TRUE(summary.at("fault").is_null());
+  EXPECT_TRUE(summary.at("log_fault").is_null());
   EXPECT_EQ(summary.at("capture_faults"),
             nlohmann::json::array({"a.pcap: no space left on device"}));
   const nlohmann::json& front = summary.at("sensors").at(0);
@@ -61,7 +62,8 @@ TEST(LiveSummaryJson, IsOneLineOfTheSameNumbers) {
   EXPECT_EQ(front.at("compute_ms").at("max"), 5.0);
   EXPECT_EQ(front.at("compute_ms").at("p50"),
             static_cast<double>(record.compute.QuantileNs(0.5)) / 1e6);
-  const nlohmann::json untimed = parsed({{record}, "the line ends"}, false);
+  const nlohmann::json untimed = parsed({{record}, "the line ends", "l: file too large"}, false);
+  EXPECT_EQ(untimed.at("log_fault"), "l: file too large");
   EXPECT_EQ(untimed.at("fault"), "the line ends");
   EXPECT_TRUE(untimed.at("sensors").at(0).at("lateness_ms").is_null());
 }

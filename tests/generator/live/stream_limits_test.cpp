@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/base/join.h"
 #include "core/io/write_file.h"
+#include "core/scenario/command_log.h"
 #include "railcast/io/stream.h"
 #include "tests/core/io/small_disk.h"
 #include "tests/core/io/temporary_directory.h"
@@ -92,6 +95,34 @@ TEST(Stream, GoesOnWithoutItsCaptureOnAFullDisk) {
   EXPECT_EQ(alone.find("1 "), 0U) << alone;
   EXPECT_EQ(alone.find("coarse: 40 frames"), std::string::npos) << alone;
   EXPECT_NE(alone.find("\ncapture: " + fault), std::string::npos) << alone;
+}
+
+TEST(Stream, GoesOnWithoutItsLogWhereThatMayNotGrow) {
+  const TemporaryDirectory folder;
+  const std::string log = (folder.path() / "log.jsonl").string();
+  const std::string port = FreePort();
+  const std::string command = "ulimit -f 1; timeout --kill-after=10 120 " RAILCAST_GENERATE
+                              " stream " +
+                              CoarseScenario(folder.path()) + " --lockstep --duration 0.1" +
+                              " --commands-port " + port + " --commands-log " + log;
+  auto run = std::async(std::launch::async, [&] { return RunCommand(command); });
+  Controller controller(port);
+  const std::string rain = R"({"command":"set_weather","weather":{"rain_rate_mmph":20}})";
+  const std::string step = R"({"command":"step"})";
+  for (const std::string& each : {std::string(R"({"command":"brake","deceleration_mps2":1})"), rain,
+                                  rain, rain, step, step}) {
+    EXPECT_THAT(controller.Say(each), testing::HasSubstr("\"ok\":true"));
+  }
+  const Ended ended = run.get();
+  const std::string text = ReadFileWhole(log);
+  const auto num = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) - 1;
+  EXPECT_THAT(ended, ExitsWith(1, testing::HasSubstr("coarse: 2 frames")));
+  EXPECT_THAT(ended.said,
+              testing::HasSubstr("\nlog: " + log + ": file too large; the log ends after " +
+                                 Amount(num, "commands") + "\n"));
+  // By hand, as of a run that was killed.
+  WriteFileWhole(log, text + CommandLogEnd(num));
+  EXPECT_EQ(ReadCommandLog(log).commands.size(), num);
 }
 
 TEST(Stream, SaysThatItCannotKeepUpAndDropsFramesIfAskedTo) {
