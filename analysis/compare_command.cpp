@@ -114,8 +114,13 @@ int RunAblation(const CompareOptions& options, const std::string& command_line) 
   ScenarioSpec scenario = ReadScenario(options.scenario);
   if (options.sensor) scenario = PickSensor(scenario, options.sensor);
   if (options.seed) scenario.seed = *options.seed;
-  const auto simulators = MakeSimulators(scenario, options.num_threads);
   const std::vector<std::string> names = SensorNames(scenario);
+  if (names.size() > 1 && options.output.is_json) {
+    throw InputError("--format json: must be with --sensor, one of " +
+                     JoinInProse(names, " and ", [](const auto& name) { return Quoted(name); }) +
+                     ", each of which has a report of its own (got none)");
+  }
+  const auto simulators = MakeSimulators(scenario, options.num_threads);
   for (std::size_t i = 0; i < simulators.size(); ++i) {
     ReportOutput output = options.output;
     if (simulators.size() > 1 && !output.out.empty()) output.out /= names[i];
@@ -126,6 +131,7 @@ int RunAblation(const CompareOptions& options, const std::string& command_line) 
 }
 
 int RunCompare(const CompareOptions& options, const std::string& command_line) {
+  CheckReportFolder(options.output.out);
   const tbb::global_control limit = LimitThreads(options.num_threads);
   return options.scenario.empty() ? RunPairs(options, command_line)
                                   : RunAblation(options, command_line);
@@ -164,10 +170,11 @@ void AddCompare(ProgramOptions& app, ProgramCommand& command) {
   ProgramOptions compare = app.AddCommand(
       "compare",
       "Measure how far two recordings are apart, or what each effect of a scenario changes");
-  compare.AddOption(
-      "RECORDINGS", options->sources,
-      "Two recordings to compare, the first the reference: each a sequence directory, a .pcd or "
-      ".ply file, a directory of such files, a .pcap capture or a bag of ROS 2");
+  compare
+      .AddOption("RECORDINGS", options->sources,
+                 "Two recordings to compare, the first the reference: each a sequence directory, a "
+                 ".pcd or .ply file, a directory of such files, a .pcap capture or a bag of ROS 2")
+      .Check(NonEmpty());
   AddSourceChoice(compare, options->choice);
   compare
       .AddText(

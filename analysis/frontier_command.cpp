@@ -59,6 +59,7 @@ std::string IdentityText(const FrontierPlan& plan, const std::string& scenario_h
 }
 
 int RunFrontier(const FrontierOptions& options, const std::string& command_line) {
+  CheckReportFolder(options.out);
   FrontierPlan plan;
   plan.rows = ChooseFrontierRows(options.rows);
   plan.num_threads = options.num_threads;
@@ -68,7 +69,6 @@ int RunFrontier(const FrontierOptions& options, const std::string& command_line)
   plan.approach_frames = ApproachFrames(scenario, *simulator, kNumApproachFrames);
   plan.detail_frames =
       SpreadFrames(LastFrameOfRun(scenario, *simulator, kNumDetailFrames), kNumDetailFrames);
-  std::filesystem::create_directories(options.out);
   // The choice of fidelity takes about a tenth of the time.
   constexpr double kRowsShare = 0.9;
   const std::string scenario_hash = IdentityOf(scenario).scenario_hash;
@@ -115,7 +115,7 @@ void AddFrontier(ProgramOptions& app, ProgramCommand& command) {
                                            "Chart time against accuracy: the rungs, brute force, "
                                            "and the reference; run the same command "
                                            "again to continue an interrupted run");
-  frontier.AddOption("SCENARIO", options->scenario, "Scenario file").Required();
+  frontier.AddOption("SCENARIO", options->scenario, "Scenario file").Required().Check(NonEmpty());
   frontier
       .AddOption("--out", options->out,
                  "Directory for report.html, its charts and tables, and frontier.json, .csv, .svg, "

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "analysis/commands.h"
+#include "core/base/join.h"
 #include "core/io/run/sensors_record.h"
 #include "core/io/verify/verification.h"
 #include "core/program/progress_line.h"
@@ -13,15 +14,11 @@
 namespace railcast {
 namespace {
 
-std::string Amount(std::uint64_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
 std::string SummaryOf(const Verification& found) {
   constexpr double kMega = 1e6;
   std::ostringstream text;
-  text << (found.faults.empty() ? "whole" : Amount(found.faults.size(), "fault")) << "; read "
-       << Amount(found.num_frames, "frame") << " in " << Amount(found.num_files, "file") << ", "
+  text << (found.faults.empty() ? "whole" : Amount(found.faults.size(), "faults")) << "; read "
+       << Amount(found.num_frames, "frames") << " in " << Amount(found.num_files, "files") << ", "
        << std::fixed << std::setprecision(1) << static_cast<double>(found.num_bytes) / kMega
        << " MB";
   return text.str();

@@ -44,7 +44,6 @@ void AddOtherCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& c
 
 void AddCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& command) {
   app.RequireCommand();
-  app.AddFlag("-v,--verbose", "Print details of each step");
   railcast::AddSequence(app, command);
   AddOtherCommands(app, command);
 }

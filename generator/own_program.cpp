@@ -24,10 +24,9 @@ std::filesystem::path FindProgram(const OwnProgram& own) {
 }
 
 /// @param arguments What follows the command.
-int RunProgramOf(const OwnProgram& own, std::vector<std::string> arguments, bool is_verbose) {
+int RunProgramOf(const OwnProgram& own, std::vector<std::string> arguments) {
   const std::filesystem::path program = FindProgram(own);
   arguments.insert(arguments.begin(), {"railcast-generate", own.command});
-  if (is_verbose) arguments.emplace_back("--verbose");
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
@@ -40,9 +39,9 @@ int RunProgramOf(const OwnProgram& own, std::vector<std::string> arguments, bool
 void AddOwnProgram(const OwnProgram& own, ProgramOptions& app, ProgramCommand& command) {
   ProgramOptions subcommand = app.AddForeignCommand(own.command, own.description);
   // All that follows is for the other program, also what asks for help.
-  subcommand.WhenParsed([&app, &command, own, subcommand] {
-    command = [&app, own, subcommand](const std::string& /*all*/) {
-      return RunProgramOf(own, subcommand.Remaining(), app.is_given("--verbose"));
+  subcommand.WhenParsed([&command, own, subcommand] {
+    command = [own, subcommand](const std::string& /*all*/) {
+      return RunProgramOf(own, subcommand.Remaining());
     };
   });
 }

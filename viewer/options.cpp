@@ -113,7 +113,8 @@ void AddSourceOptions(ProgramOptions& app, ViewOptions& options, RawOptions& raw
                 "such files, a .pcap or .pcapng capture, a bag of ROS 2, a live stream, "
                 "udp://HOST:PORT, or "
                 "a scenario, SCENARIO.json, whose plan --screenshot draws")
-      .Required();
+      .Required()
+      .Check(NonEmpty());
   AddSourceChoice(app, options.choice);
   app.AddOption("--frame", options.frame, "Number of the frame to begin with; default: the first")
       .Check(Whole({0, std::numeric_limits<std::uint32_t>::max()}));

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -32,6 +34,17 @@ template <typename Items, typename TextOf = std::identity>
     text += std::invoke(text_of, items[i]);
   }
   return text;
+}
+
+/// A count and what it counts: "3 boxes of objects", "1 box of objects".
+/// @param what In the plural; its first word ends in "s".
+[[nodiscard]] inline std::string Amount(std::uint64_t count, const std::string& what) {
+  if (count != 1) return std::to_string(count) + " " + what;
+  const std::size_t end = std::min(what.find_first_of(" ,:\n"), what.size());
+  std::string word = what.substr(0, end - 1);
+  if (word.ends_with("xe")) word.pop_back();
+  if (word.ends_with("ie")) word.replace(word.size() - 2, 2, "y");
+  return "1 " + word + what.substr(end);
 }
 
 }  // namespace railcast

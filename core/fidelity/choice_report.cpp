@@ -68,7 +68,7 @@ std::string PartsText(const Deviation& deviation, const ToleranceSpec& tolerance
     text += "    " + PartText(beyond[i], tolerance) + "\n";
   }
   if (beyond.size() > kMost) {
-    text += "    and " + std::to_string(beyond.size() - kMost) + " more parts\n";
+    text += "    and " + Amount(beyond.size() - kMost, "others\n");
   }
   return text;
 }

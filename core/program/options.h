@@ -77,7 +77,7 @@ class ProgramOptions {
   [[nodiscard]] ProgramOptions AddForeignCommand(const std::string& name,
                                                  const std::string& description);
   /// One of the commands added after this must be named. What a command does not know is the
-  /// program's: `-v` may follow it.
+  /// program's: `--version` may follow it.
   void RequireCommand();
   void WhenParsed(
       const std::function<void()>& use);  ///< The command was named and its options are sound.

@@ -47,9 +47,11 @@ std::string Obstacle(const fs::path& file) {
 
 std::string ValueText(const Json& value) {
   constexpr std::size_t kMaxLength = 60;
-  std::string text = value.dump(-1, ' ', true);
-  if (text.size() > kMaxLength) text = text.substr(0, kMaxLength) + "...";
-  return text;
+  std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (text.size() <= kMaxLength) return text;
+  std::size_t end = kMaxLength;
+  while ((static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // Within a character.
+  return text.substr(0, end) + "...";
 }
 
 Node Node::Child(std::string_view key) const {

@@ -193,8 +193,8 @@ void AddCheck(ProgramOptions& app, ProgramCommand& command) {
                  "Share of the frames' time, such as 1%: also print how precise a certificate of "
                  "that share would be, and the numerical error of three frames")
       .ShowDefault();
-  check.WhenParsed([&app, &command, options] {
-    options->is_verbose = app.is_given("--verbose");
+  check.AddFlag("-v,--verbose", options->is_verbose, "Print details of each step");
+  check.WhenParsed([&command, options] {
     command = [options](const std::string&) { return RunCheck(*options); };
   });
 }

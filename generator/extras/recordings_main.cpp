@@ -8,7 +8,6 @@ namespace {
 
 void AddCommandsOfRecordings(railcast::ProgramOptions& app, railcast::ProgramCommand& command) {
   app.RequireCommand();
-  app.AddFlag("-v,--verbose", "Print details of each step");
   const auto& built = railcast::RecordingCommands::Get().commands;
   for (const railcast::OwnProgram& own : railcast::kOwnPrograms) {
     if (own.program != std::string_view("railcast-recordings")) continue;

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "core/base/error.h"
+#include "core/base/join.h"
 #include "core/base/text.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
@@ -144,9 +145,9 @@ int RunWorld(const WorldOptions& options) {
   const std::string bytes = format.encode(exported, labels, materials);
   if (options.is_verbose) SayTriangles(exported, labels);
   const std::size_t num_triangles = size.gathered.num_triangles;
-  std::cerr << "writing " << num_triangles << " triangles, " << SizeText(bytes.size()) << "\n";
+  std::cerr << "writing " << Amount(num_triangles, "triangles, ") << SizeText(bytes.size()) << "\n";
   WriteFileWhole(options.out, bytes);
-  std::cout << num_triangles << " triangles of " << chunks.size() << " chunks in "
+  std::cout << Amount(num_triangles, "triangles of ") << Amount(chunks.size(), "chunks in ")
             << ShownPath(options.out) << "\n";
   return kExitSuccess;
 }
@@ -173,8 +174,8 @@ void AddWorld(ProgramOptions& app, ProgramCommand& command) {
                  "Most MB that the file may have; a larger one is refused before it is written")
       .ShowDefault()
       .Check(Whole({1, 1'000'000}));
-  world.WhenParsed([&app, &command, options] {
-    options->is_verbose = app.is_given("--verbose");
+  world.AddFlag("-v,--verbose", options->is_verbose, "Print details of each step");
+  world.WhenParsed([&command, options] {
     command = [options](const std::string&) { return RunWorld(*options); };
   });
 }

@@ -52,6 +52,23 @@ TEST(RailcastAnalyzeCompare, ComparesTwoClouds) {
   EXPECT_TRUE(std::filesystem::exists(out / "report.html"));
 }
 
+TEST(RailcastAnalyzeCompare, PrintsJsonOfOneSensorOnly) {
+  const TemporaryFolder folder;
+  const auto scenario = WriteScenario(folder);
+  PlainJson both = PlainJson::parse(ReadFileWhole(scenario));
+  both["lidars"] = {both["lidar"], both["lidar"]};
+  both["lidars"][0]["name"] = "front";
+  both["lidars"][1]["name"] = "roof";
+  both.erase("lidar");
+  WriteFileWhole(scenario, both.dump());
+  const Ended run = Compare("--ablate " + scenario.string() + " --format json");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(
+      run.said,
+      "--format json: must be with --sensor, one of \"front\" and \"roof\", each of which has "
+      "a report of its own (got none)\n");
+}
+
 TEST(RailcastAnalyzeCompare, RefusesDistancesThatAreNone) {
   const Ended run = Compare("a b --distances 0.1,-1 --format text");
   EXPECT_EQ(run.status, 1);

@@ -53,12 +53,28 @@ TEST(RailcastAnalyze, NamesAMisspeltCommandAndAnOptionWithoutAName) {
   EXPECT_EQ(Analyze("stat a").status, 2);
   EXPECT_THAT(Analyze("stats a --out ''").said, HasSubstr("--out: must not be empty\n"));
   EXPECT_EQ(Analyze("stats a --out ''").status, 2);
+  for (const std::string command : {"stats", "inspect", "compare a", "frontier", "study", "sight",
+                                    "detect", "evaluate", "fit", "preset"}) {
+    EXPECT_THAT(Analyze(command + " '' --out b"), ExitsWith(2, HasSubstr(": must not be empty\n")));
+  }
 }
 
 TEST(RailcastAnalyze, NamesAnUnknownRowAndAMissingScenario) {
   EXPECT_EQ(Analyze("frontier a.json --out /tmp/none --rows best").status, 1);
   EXPECT_THAT(Analyze("frontier /no/such.json --out /tmp/none"),
               ExitsWith(1, HasSubstr("/no/such.json")));
+}
+
+// Whether the scenario is there is looked at later.
+TEST(RailcastAnalyze, LooksAtTheFolderOfAReportBeforeAnythingElse) {
+  const TemporaryFolder folder;
+  const std::string file = folder.Write("file", "").string();
+  for (const std::string command :
+       {"frontier none.json", "compare --ablate none.json", "stats none", "inspect none",
+        "detect none", "compare none none"}) {
+    EXPECT_THAT(Analyze(command + " --out " + file), ExitsWith(1, file + ": not a directory\n"))
+        << command;
+  }
 }
 
 TEST(RailcastAnalyze, ChartsAScenario) {
@@ -141,6 +157,31 @@ TEST(InspectCommand, WritesAPageAndJson) {
   const nlohmann::json report = nlohmann::json::parse(ReadFileWhole(out / "inspect.json"));
   EXPECT_EQ(report.at("sections").at(0).at("key"), "jobs");
   EXPECT_TRUE(report.at("remarks").is_array());
+}
+
+TEST(InspectCommand, DoesNotWriteTheSensorOverTheRecording) {
+  const TemporaryFolder folder;
+  const std::string cloud = WriteCloud(folder);
+  const std::string text = ReadFileWhole(cloud);
+  EXPECT_THAT(Analyze("inspect " + cloud + " --format text --sensor-file " + cloud),
+              ExitsWith(1, "--sensor-file: must not be SOURCE or in it (got " + cloud + ")\n"));
+  EXPECT_EQ(ReadFileWhole(cloud), text);
+}
+
+TEST(StatsCommand, SaysThatAPipeIsNoRecording) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(RunCommand("cat " + WriteCloud(folder) +
+                         " | " RAILCAST_ANALYZE " stats /dev/stdin --format text"),
+              ExitsWith(1, testing::StartsWith("/dev/stdin: must be a directory or a .pcd")));
+}
+
+TEST(StatsCommand, SaysThatThereIsNoFolderToDrawIn) {
+  const TemporaryFolder folder;
+  const std::string cloud = WriteCloud(folder);
+  EXPECT_THAT(RunCommand("TMPDIR=/nonexistent " RAILCAST_ANALYZE " stats " + cloud + " --out " +
+                         cloud + ".out"),
+              ExitsWith(1, testing::EndsWith("TMPDIR: must be a folder, in which charts are "
+                                             "drawn\n")));
 }
 
 TEST(InspectCommand, TellsTheSensorOfACloudThatAnotherDecoderMade) {

@@ -138,6 +138,16 @@ TEST(CommandLine, NamesTheOptionThatAMisspeltOneMayMean) {
   ExpectUsageError("check a.json --quickly", "unknown option (got --quickly)");
 }
 
+TEST(CommandLine, OffersDetailsOnlyWhereThereAreAny) {
+  for (const std::string command : {"sequence", "check", "world"}) {
+    EXPECT_THAT(Generate(command + " --help"), ExitsWith(0, testing::HasSubstr("--verbose")));
+  }
+  for (const std::string command : {"stream", "trace", "insert", "dataset", "survey", "import"}) {
+    EXPECT_THAT(Generate(command + " --help").said, testing::Not(testing::HasSubstr("--verbose")))
+        << command;
+  }
+}
+
 TEST(CommandLine, NamesTheOptionWhoseFileHasNoName) {
   for (const char* option : {"--out", "--commands"}) {
     ExpectUsageError(std::string("sequence a.json --out b ") + option + " ''",

@@ -7,6 +7,7 @@
 #include <regex>
 #include <sstream>
 #include <string>
+#include <thread>
 
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
@@ -49,6 +50,14 @@ TEST(RailcastGenerate, SaysWhichPointsAreInTheGauge) {
     EXPECT_FALSE(is_in_gauge && frames[0].foreign[1].values[slot] > 6.5F);
   }
   EXPECT_GT(num_in_gauge, 0U);
+}
+
+TEST(RailcastGenerate, TakesMoreThreadsThanThereAreCores) {
+  const TemporaryDirectory directory;
+  const std::string num = std::to_string(std::thread::hardware_concurrency() + 6);
+  EXPECT_THAT(Generate("sequence " + MakeProject(directory.path()).string() + " --frames 1 --out " +
+                       (directory.path() / "out").string() + " --threads " + num),
+              ExitsWith(0, testing::Not(HasSubstr("TBB"))));
 }
 
 TEST(RailcastGenerate, ExitsWithTwoOnWrongUsage) {
@@ -141,6 +150,22 @@ TEST(RailcastGenerate, ExitsWithOneAndOneLineOnBadInput) {
   const Ended stretch =
       Generate("world " + kScenariosFolder + "minimal.json --from-s 5 --to-s 1 --out a.ply");
   EXPECT_EQ(stretch.said, "--from-s, --to-s: must be 0 <= from < to <= 1000 (got 5, 1)\n");
+}
+
+TEST(RailcastGenerate, WritesNeitherOverItsScenarioNorTwoFilesAsOne) {
+  const TemporaryDirectory directory;
+  const std::string scenario = MakeProject(directory.path()).string();
+  const std::string text = ReadFileWhole(scenario);
+  const std::string sequence =
+      "sequence " + scenario + " --frames 1 --out " + (directory.path() / "out").string();
+  const std::string fault = "--summary: must not be SCENARIO or in it (got " + scenario + ")\n";
+  EXPECT_THAT(Generate(sequence + " --summary " + scenario), ExitsWith(1, fault));
+  EXPECT_THAT(Generate("stream " + scenario + " --duration 1 --to :9 --summary " + scenario),
+              ExitsWith(1, fault));
+  EXPECT_EQ(ReadFileWhole(scenario), text);
+  const std::string picture = (directory.path() / "p.png").string();
+  EXPECT_THAT(Generate(sequence + " --picture " + picture + " --summary " + picture),
+              ExitsWith(1, "--picture: must not be --summary or in it (got " + picture + ")\n"));
 }
 
 TEST(RailcastGenerate, WritesTheSummaryOfASequenceBesideItsDirectory) {
@@ -384,7 +409,7 @@ TEST(RailcastGenerate, WritesTheSceneAsAMesh) {
   const Ended run =
       Generate("world " + kScenariosFolder + "minimal.json --from-s 400 --to-s 450 --out " + file);
   EXPECT_EQ(run.status, 0);
-  EXPECT_NE(run.said.find(" triangles of 1 chunks in " + file), std::string::npos);
+  EXPECT_NE(run.said.find(" triangles of 1 chunk in " + file), std::string::npos);
   const auto megabytes = static_cast<double>(std::filesystem::file_size(file)) * 1e-6;
   std::istringstream first_line(run.said);
   std::string writing, triangles;

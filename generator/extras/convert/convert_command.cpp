@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "core/base/error.h"
+#include "core/base/join.h"
 #include "core/base/text.h"
 #include "core/extras/recipe/dataset_verification.h"
 #include "core/io/recording/source_choice.h"
@@ -29,16 +30,17 @@ struct ConvertOptions {
 std::string ConversionReport(const ConvertChoices& choices,
                              const ConvertResult& result,
                              bool is_set) {
-  std::string text = NumberText(result.num) + (is_set ? " scenarios" : " frames") + " in format " +
-                     choices.format + "\n";
+  std::string text =
+      Amount(result.num, is_set ? "scenarios" : "frames") + " in format " + choices.format + "\n";
   for (const auto& [what, number] : result.lost) {
-    text += "not in " + choices.format + ": " + NumberText(number) + " " + ShownText(what) + "\n";
+    text += "not in " + choices.format + ": " + ShownText(Amount(number, what)) + "\n";
   }
   return text + "written to " + ShownPath(choices.directory) + "\n";
 }
 
 int RunConvertCommand(ConvertOptions options) {
   ConvertChoices& choices = options.choices;
+  CheckIsOutside("OUT", choices.directory, true);
   if (!options.frames.empty()) {
     std::tie(choices.first_frame, choices.last_frame) = FramesNamed(options.frames);
   }

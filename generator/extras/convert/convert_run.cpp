@@ -132,7 +132,7 @@ class RecordingConversion {
     AddLoss("boxes of objects", source.recorded.objects.size(), lost);
     for (const Remark& remark : source.cloud.remarks) {
       const bool is_moved = remark.kind == RemarkKind::kViewpointUnused;
-      AddLoss("viewpoints that are not the origin", is_moved ? 1 : 0, lost);
+      AddLoss("viewpoints other than the origin", is_moved ? 1 : 0, lost);
     }
   }
 

@@ -183,8 +183,7 @@ class ConvertedKitti final : public ConvertOutput {
     const bool loses_pose = recorded.has_pose && !survey_.has_poses;
     AddLoss("poses, which not all frames have", loses_pose ? 1 : 0, lost);
     AddLoss("labels without a number in SemanticKITTI, now 0", num_unknown, lost);
-    AddLoss("intensities that are not known, now 0", recorded.Has("intensity") ? 0 : num_points,
-            lost);
+    AddLoss("intensities not known, now 0", recorded.Has("intensity") ? 0 : num_points, lost);
   }
 
   const FrameFormat& format_;

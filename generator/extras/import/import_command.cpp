@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/join.h"
 #include "core/base/text.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
@@ -402,7 +403,7 @@ int RunImport(const ImportCommandOptions& options) {
             << QualityTable(work.lines) << '\n'
             << AccountTable(account) << '\n'
             << MovedText(work.worlds) << LeftOutLinesText(left_out.lines) << "Wrote "
-            << work.lines.size() << " lines to " << ShownPath(options.out) << '\n';
+            << Amount(work.lines.size(), "lines to ") << ShownPath(options.out) << '\n';
   if (!work.lines.empty()) return kExitSuccess;
   throw InputError(ShownPath(options.map) + ": must have a line that can be built (got " +
                    std::to_string(left_out.lines.size()) + " left out, with the reasons in " +

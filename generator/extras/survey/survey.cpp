@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/join.h"
 #include "core/base/median.h"
 #include "core/base/text.h"
 #include "generator/extras/survey/moving_things.h"
@@ -89,8 +90,9 @@ Survey MakeSurvey(const FramesOfSurvey& frames,
   survey.num_linear = count(SurfelKind::kLinear);
   survey.num_scattered = count(SurfelKind::kOther);
   if (surfels.empty()) {
-    throw InputError("the survey: must have surfaces (got " + std::to_string(survey.num_points) +
-                     " points of " + std::to_string(survey.num_frames) + " frames and no surface)");
+    throw InputError("the survey: must have surfaces (got " +
+                     Amount(survey.num_points, "points of ") +
+                     Amount(survey.num_frames, "frames and no surface)"));
   }
   survey.labels = labels.names();
   TilesByCell tiles = TilesOf(surfels);

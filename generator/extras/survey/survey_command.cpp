@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/base/join.h"
 #include "core/base/text.h"
 #include "core/extras/packets/recording/capture_recording.h"
 #include "core/extras/ros/recording/bag_recording.h"
@@ -46,15 +47,15 @@ std::string WorldText(const AlignmentSpec& axis) {
 /// What a survey consists of, as counts.
 std::string SurveyReport(const Survey& survey, std::size_t num_bytes) {
   const auto line = [](std::size_t count, const std::string& what) {
-    return std::to_string(count) + " " + what + "\n";
+    return Amount(count, what) + "\n";
   };
-  return line(survey.num_points, "points of " + std::to_string(survey.num_frames) + " frames in " +
-                                     std::to_string(survey.num_voxels) + " cubes") +
+  return line(survey.num_points, "points of " + Amount(survey.num_frames, "frames in ") +
+                                     Amount(survey.num_voxels, "cubes")) +
          line(survey.num_alone, "cubes without neighbours left out") +
          line(survey.num_moving, "surfels of things that moved left out") +
-         line(survey.num_surfels, "surfels in " + std::to_string(survey.tiles.size()) +
-                                      " tiles: " + std::to_string(survey.num_linear) +
-                                      " along lines, " + std::to_string(survey.num_scattered) +
+         line(survey.num_surfels, "surfels in " + Amount(survey.tiles.size(), "tiles: ") +
+                                      std::to_string(survey.num_linear) + " along lines, " +
+                                      std::to_string(survey.num_scattered) +
                                       " scattered, the others on surfaces") +
          line(survey.num_wires, "wires") + line(num_bytes, "bytes");
 }

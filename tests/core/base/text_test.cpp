@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "core/base/join.h"
 #include "core/base/text_encoding.h"
 
 namespace railcast {
@@ -72,6 +73,15 @@ TEST(EditDistance, CountsInsertionsDeletionsAndChanges) {
   EXPECT_EQ(EditDistance("label", "labl"), 1U);
   EXPECT_EQ(EditDistance("kitten", "sitting"), 3U);
   EXPECT_EQ(EditDistance("", "ring"), 4U);
+}
+
+TEST(Amount, IsSingularForOne) {
+  EXPECT_EQ(Amount(0, "frames"), "0 frames");
+  EXPECT_EQ(Amount(1, "frames, "), "1 frame, ");
+  EXPECT_EQ(Amount(2, "boxes of objects"), "2 boxes of objects");
+  EXPECT_EQ(Amount(1, "boxes of objects"), "1 box of objects");
+  EXPECT_EQ(Amount(1, "intensities not known, now 0"), "1 intensity not known, now 0");
+  EXPECT_EQ(Amount(1, "tiles: 2 along lines\n"), "1 tile: 2 along lines\n");
 }
 
 TEST(AsUtf8, EncodesEveryLength) {

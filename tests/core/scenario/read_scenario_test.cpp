@@ -101,6 +101,17 @@ TEST(ReadScenario, NamesTwentyOf200000UnknownKeys) {
   EXPECT_FALSE(std::getline(faults, fault)) << fault;
 }
 
+TEST(ReadScenario, QuotesUmlautsAsTheyAreAndNoHalves) {
+  const TemporaryFolder folder;
+  const auto fault = [&](const std::string& fidelity) {
+    return FaultsOf(folder.Write("a.json", OnMinimal(R"("fidelity": ")" + fidelity + '"')));
+  };
+  EXPECT_TRUE(fault("Süd").ends_with("(got \"Süd\")")) << fault("Süd");
+  std::string many;
+  for (int i = 0; i < 40; ++i) many += "ü";
+  EXPECT_TRUE(fault(many).ends_with("(got \"" + many.substr(0, 58) + "...)")) << fault(many);
+}
+
 // The parser's own message quotes the text, which may be invalid UTF-8 or look like the message.
 TEST(ReadScenario, QuotesNoTextThatIsNoJson) {
   const TemporaryFolder folder;

@@ -219,6 +219,7 @@ TEST_F(BadInput, CommandLinesThatDoNotGoTogetherEndWithTwo) {
                                    "--compare udp://127.0.0.1"}) {
     wrong.push_back(option + " " + run_);
   }
+  wrong.emplace_back("'' --screenshot a.png");
   wrong.emplace_back("udp://127.0.0.1 --frame 1");
   wrong.push_back("udp://127.0.0.1 --compare " + run_);
   wrong.push_back("--from 127.0.0.1 " + run_);

@@ -1,5 +1,7 @@
 #include "generator/extras/insert/run/frame_folder.h"
 
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -45,6 +47,10 @@ std::vector<LineFileName> WithLedger(const FrameFolderSpec& spec) {
 }  // namespace
 
 void WithFramePipe(int num_threads, const std::function<void(FramePipe& pipe)>& work) {
+  // As in MakeSimulators(): more threads than there are cores.
+  const tbb::global_control parallelism(
+      tbb::global_control::max_allowed_parallelism,
+      static_cast<std::size_t>(std::max(num_threads, tbb::info::default_concurrency())));
   tbb::task_arena arena(num_threads == 0 ? tbb::task_arena::automatic : num_threads);
   FramePipe pipe;
   pipe.num_at_once = static_cast<std::size_t>(arena.max_concurrency()) + 1;

@@ -38,7 +38,10 @@ int RunInsertCommand(InsertOptions options) {
   if (!options.is_check && choices.directory.empty()) {
     throw InputError("--out: missing (only --check writes nothing)");
   }
-  if (!choices.directory.empty()) CheckIsApart(choices);
+  if (!choices.directory.empty()) {
+    CheckIsApart(choices);
+    CheckIsOutside("--out", choices.directory, true);
+  }
   choices.recording = WithChoice({choices.recording}, options.choice).front();
   const InsertPlan plan = ReadInsertPlan(choices.plan, choices.recording);
   for (const std::string& remark : plan.remarks) std::cout << ShownLines(remark) << "\n";

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/join.h"
 #include "core/base/text.h"
 #include "core/certify/certifier.h"
 #include "core/extras/insert/insert_record.h"
@@ -365,13 +366,13 @@ std::string ReportOf(const fs::path& directory) {
       frames += object.is_visible ? 1 : 0;
     }
   }
-  std::string report = NumberText(num_frames) + " frames, " + NumberText(added) +
-                       " points added, " + NumberText(removed) + " removed\n";
+  std::string report = Amount(num_frames, "frames, ") + Amount(added, "points added, ") +
+                       NumberText(removed) + " removed\n";
   for (const auto& [name, counts] : seen) {
     report += "  " + ShownText(name) + ": ";
-    report += counts.first == 0 ? "not visible in any frame\n"
-                                : NumberText(counts.first) + " points in " +
-                                      NumberText(counts.second) + " frames\n";
+    report += counts.first == 0
+                  ? "not visible in any frame\n"
+                  : Amount(counts.first, "points in ") + Amount(counts.second, "frames\n");
   }
   const fs::path file = directory / kManifestFile;
   const auto manifest = ReadRecord<InsertManifestRecord>(ReadManifestText(file), ShownPath(file));

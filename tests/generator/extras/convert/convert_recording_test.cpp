@@ -21,6 +21,7 @@
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/extras/convert/converted.h"
 #include "tests/generator/extras/insert/run/made_insertion.h"
+#include "tests/support/exits_with.h"
 #include "tests/support/sensor_file.h"
 
 namespace railcast {
@@ -70,6 +71,14 @@ class ConvertRecording : public testing::Test {
 
 std::vector<std::string> AllFormats() {
   return ConvertFormats();
+}
+
+TEST_F(ConvertRecording, KeepsOutOfTheSequenceOfItsClouds) {
+  fs::create_directories(Path("run/frames"));
+  WriteFileWhole(Path("run/frames.jsonl"), "");
+  EXPECT_THAT(RunCommand(RAILCAST_GENERATE " convert " + Path("run/frames").string() + " " +
+                         Path("run/out").string()),
+              ExitsWith(1, testing::StartsWith("OUT: must be outside ")));
 }
 
 TEST_F(ConvertRecording, KeepsEveryNumberOfCloudsOfOthersWhateverTheFormat) {
@@ -188,8 +197,8 @@ std::string RowsOf(const std::string& fields, const std::string& size, const std
 
 TEST_F(ConvertRecording, CountsRowsAndViewpointsOfClouds) {
   WriteFileWhole(Path("rows.pcd"), RowsOf("X Y Z intensity", "4 4 4 4", "F F F F"));
-  const Losses viewpoint = {{"viewpoints that are not the origin", 1}};
-  const Losses both = {{"rows of organised clouds", 2}, {"viewpoints that are not the origin", 1}};
+  const Losses viewpoint = {{"viewpoints other than the origin", 1}};
+  const Losses both = {{"rows of organised clouds", 2}, {"viewpoints other than the origin", 1}};
   for (const std::string format : {"pcd", "mcap", "ply", "ply-cloudcompare", "kitti"}) {
     const ConvertResult result =
         ConvertAll({.recording = Path("rows.pcd"), .directory = Path(format), .format = format});

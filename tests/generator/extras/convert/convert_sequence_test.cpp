@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <tuple>
 
 #include "core/extras/recipe/dataset_verification.h"
@@ -15,6 +16,8 @@
 #include "tests/generator/extras/convert/converted.h"
 #include "tests/generator/extras/dataset/dataset_project.h"
 #include "tests/generator/extras/insert/run/made_insertion.h"
+#include "tests/generator/run_command.h"
+#include "tests/support/exits_with.h"
 
 namespace railcast {
 namespace {
@@ -74,6 +77,16 @@ TEST(ConvertSequence, TellsWhatTheFormatHasNoPlaceFor) {
   EXPECT_EQ(lost_in("ply"), (Losses{{"firings without a point", num_absent}}));
   EXPECT_EQ(lost_in("kitti"),
             (Losses{{"firings without a point", num_absent}, {"values of ring", num_points}}));
+}
+
+TEST(ConvertSequence, TakesMoreThreadsThanThereAreCores) {
+  const TemporaryDirectory folder;
+  (void)MakeSequence(folder.path() / "run", {});
+  EXPECT_THAT(Generate("convert " + (folder.path() / "run").string() + " " +
+                       (folder.path() / "out").string() + " --frames 0 --threads " +
+                       std::to_string(std::thread::hardware_concurrency() + 6)),
+              ExitsWith(0, testing::AllOf(testing::HasSubstr("1 frame in format pcd\n"),
+                                          testing::Not(testing::HasSubstr("TBB")))));
 }
 
 TEST(ConvertSequence, DoesNotSayWhyFiringsHaveNoPointWhereTheRecordingDoesNot) {

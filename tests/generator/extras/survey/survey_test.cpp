@@ -84,7 +84,7 @@ TEST(MakeSurvey, RefusesToMakeNothing) {
   MadeFrames frames;
   AddPoint({5.0, 0.0, 0.0}, frames.Add({0.0, 0.0, 2.0}));
   EXPECT_EQ(MessageOf([&] { static_cast<void>(MakeSurvey(frames.All(), {}, {})); }),
-            "the survey: must have surfaces (got 1 points of 1 frames and no surface)");
+            "the survey: must have surfaces (got 1 point of 1 frame and no surface)");
 }
 
 /// The number of surfels within 0.5 m of a place in plan.

@@ -110,7 +110,7 @@ TEST_F(CertifiedInsertion, IsAnotherRunWithAnotherShare) {
   ASSERT_EQ(Insert("out", "--certify 50% --frames 0").status, 0);
   const Ended other = Insert("out", "--certify 20% --frames 0");
   EXPECT_EQ(other.status, 1);
-  EXPECT_THAT(other.said, HasSubstr("its certify is 0.5 (got 0.2)"));
+  EXPECT_THAT(other.said, HasSubstr("its --certify is 50% (got 20%)"));
 }
 
 TEST_F(CertifiedInsertion, IsRefusedWhereThereIsNothingToCertify) {

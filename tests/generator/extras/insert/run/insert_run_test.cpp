@@ -168,7 +168,7 @@ TEST(InsertRun, SaysWhatIsWrongWithItsFoldersAndFrames) {
   other.format = "ply";
   EXPECT_EQ(MessageOf([&] { (void)InsertInto(other); }),
             choices.directory.string() +
-                ": holds another run: its format is same (got ply); choose another --out");
+                ": holds another run: its --format is same (got ply); choose another --out");
 }
 
 TEST(InsertRun, IsVerifiedWithAllItsFiles) {
