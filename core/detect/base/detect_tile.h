@@ -34,7 +34,7 @@ struct alignas(64) DetectTile {
   float spread_m[kTileSize];      ///< Standard deviation of the range within the beam.
   float share[kTileSize];         ///< Share of the beam's power that meets the surface.
   float peak_shift_m[kTileSize];  ///< Range of the echo's peak minus the true range.
-  float reflectivity[kTileSize];  ///< Diffuse reflectance.
+  float reflectivity[kTileSize];  ///< Diffuse reflectance; of echoes, of all that the beam meets.
   // The other optical properties of the surface; set if a physical effect is on.
   float diffuse_a[kTileSize], diffuse_b[kTileSize];  ///< LaneOptics::a and b (Oren and Nayar).
   float specular_f0[kTileSize];

@@ -46,7 +46,6 @@ Echo Gather(const WavePeak& peak, const Component* begin, const Component* end) 
     echo.surface = c->surface;
     echo.true_range_m = range_m / weight;
     echo.cos_incidence = cosine / weight;
-    echo.reflectivity = c->reflectivity;
   }
   return echo;
 }

@@ -30,7 +30,6 @@ struct Echo {
   float share{};          ///< Share of the beam, summed over all components.
   float intensity{};      ///< Intensity, summed over all components.
   float cos_incidence{};  ///< Mean over the surface that sends most of it.
-  float reflectivity{};
   std::uint32_t surface{};
 };
 

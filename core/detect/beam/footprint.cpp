@@ -128,7 +128,7 @@ void Footprint::StoreEchoes(std::size_t lane, EchoTiles& echoes) const {
     tile.cos_incidence[i] = echo.cos_incidence;
     tile.spread_m[i] = 0.0F;
     tile.share[i] = echo.share;
-    tile.reflectivity[i] = echo.reflectivity;
+    tile.reflectivity[i] = background_[lane];
     tile.outcome[i] = static_cast<std::uint32_t>(Outcome::kReturned);
     tile.clutter[i] = kNoClutter;
     tile.intensity[i] = echo.intensity;
@@ -253,6 +253,10 @@ void Footprint::Resolve(const WideBeams& beams, EchoTiles& echoes) {
     components_.insert(components_.end(), wires_.begin(), wires_.end());
     beam_parts_.insert(beam_parts_.end(), wires_.begin(), wires_.end());
     echoes.mixed_share[lane] = MixedShare(beam_parts_);
+    background_[lane] = 0.0F;
+    for (const Component& part : beam_parts_) {
+      if (part.surface != 0) background_[lane] += part.share * part.reflectivity;
+    }
     if (components_.empty()) continue;  // The outcome of the central ray explains why.
     finder_.Add(components_);
     lanes_.push_back(lane);

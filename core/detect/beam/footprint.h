@@ -94,6 +94,7 @@ class Footprint {
   std::vector<Component> components_;  // The parts of one beam that send light back, with wires.
   std::vector<std::size_t> lanes_;     // Of the beams whose echoes are looked for.
   std::vector<Echo> found_;
+  std::array<float, kTileSize> background_{};  // By lane; reflectivity of all that a beam meets.
 };
 
 }  // namespace railcast

@@ -16,7 +16,8 @@ EchoTiles::Place AddEcho(std::size_t beam, const AddedEcho& added, EchoTiles& ec
   tile.spread_m[lane] = 0.0F;
   tile.share[lane] = kNaN;
   tile.peak_shift_m[lane] = 0.0F;
-  tile.reflectivity[lane] = 0.0F;
+  const DetectTile& first = echoes.first;
+  tile.reflectivity[lane] = first.surface[beam] != 0 ? first.reflectivity[beam] : 0.0F;
   tile.outcome[lane] = static_cast<std::uint32_t>(Outcome::kClutter);
   tile.clutter[lane] = added.label;
   tile.intensity[lane] = added.intensity;

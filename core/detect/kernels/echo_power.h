@@ -109,8 +109,8 @@ inline void ApplySaturation(DetectTile& tile, const SaturationParameters& parame
 }
 
 /// The part of effect `sunlight` that concerns every beam: shot noise of the sunlight on the
-/// surface that the beam meets raises the threshold by sqrt(1 + B rho / B0); SunBackgroundGain()
-/// (weather_optics.h) gives B / B0.
+/// surfaces that the beam meets raises the threshold by sqrt(1 + B rho / B0), rho being the sum of
+/// their shares x reflectances; SunBackgroundGain() (weather_optics.h) gives B / B0.
 inline void ApplySunlight(DetectTile& tile, const SunlightParameters& parameters) {
   const float gain = parameters.background_gain;
   for (std::size_t i = 0; i < tile.num_rays; ++i) {

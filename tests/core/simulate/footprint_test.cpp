@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "core/detect/base/weather_optics.h"
 #include "railcast/simulator.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/same_frames.h"
@@ -54,6 +55,27 @@ TEST(Footprint, SeesTheShareOfABeamBesideAnEdge) {
     ++num_near;
   }
   EXPECT_GT(num_near, 80);
+}
+
+// By the background's share of the beam: what stands before the sky has little of it.
+TEST(Footprint, HasTheSunsNoiseOfAllThatTheBeamMeets) {
+  const ScanPattern pattern = MakeRaster(0.4, 0.2, 0.02);
+  SimulatorSpec spec = SpecOfWideBeams();
+  spec.detector.weather.sun.illuminance_klx = 100.0;
+  const Frame night = ScanOnce(HalfAWall(), pattern, spec);
+  spec.detector.effects.sunlight = true;
+  const Frame day = ScanOnce(HalfAWall(), pattern, spec);
+  const double gain = SunBackgroundGain(spec.detector.weather.sun);
+  const double reflectivity = TestMaterials().materials().at(2).reflectivity;
+  int num = 0;
+  for (std::size_t slot = 0; slot < day.num_slots(); ++slot) {
+    const auto share = static_cast<double>(night.footprint_share[slot]);
+    if (!(share > 0.05 && share < 0.95)) continue;
+    EXPECT_NEAR(static_cast<double>(day.power_ratio[slot] / night.power_ratio[slot]),
+                1.0 / std::sqrt(1.0 + gain * share * reflectivity), 1e-4);
+    ++num;
+  }
+  EXPECT_GT(num, 40);
 }
 
 TEST(Footprint, LeavesThePlainAlone) {
