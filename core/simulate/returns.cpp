@@ -181,7 +181,7 @@ bool IsLostSurface(const Candidate& echo) {
 }
 
 // The share of the beam that an echo's surfaces fill; less than 0 if no surface sends it.
-float ShareOf(const Candidate& echo) {
+float FilledShare(const Candidate& echo) {
   const DetectTile& tile = *echo.tile;
   const bool has_surface = tile.surface[echo.lane] != 0 && tile.clutter[echo.lane] == kNoClutter;
   return has_surface ? tile.share[echo.lane] : -1.0F;
@@ -197,7 +197,7 @@ TilePlace Missed(const std::vector<Candidate>& all) {
         return a_lost == b_lost ? PowerOf(a.place()) < PowerOf(b.place()) : b_lost;
       });
   if (IsLostSurface(*best)) return best->place();
-  return std::ranges::max_element(all, {}, &ShareOf)->place();
+  return std::ranges::max_element(all, {}, &FilledShare)->place();
 }
 
 }  // namespace

@@ -126,6 +126,18 @@ class FastReader final : public eprosima::fastdds::dds::DataReaderListener {
   int num_writers_ = 0;
 };
 
+/// Waits until a writer has a reader: what is written before is lost.
+[[nodiscard]] inline bool WaitForReader(const eprosima::fastdds::dds::DataWriter& writer) {
+  constexpr int kStep_ms = 10;
+  eprosima::fastdds::dds::PublicationMatchedStatus status;
+  for (int waited_ms = 0; waited_ms < kDdsPatience_ms; waited_ms += kStep_ms) {
+    writer.get_publication_matched_status(status);
+    if (status.current_count > 0) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(kStep_ms));
+  }
+  return false;
+}
+
 /// What a participant tells others of one of its writers.
 struct SeenWriter {
   std::string type;

@@ -23,8 +23,11 @@ using testing::IsEmpty;
 using testing::IsNan;
 
 RecordedFrame ReadBytes(const std::string& name, const std::string& bytes) {
-  auto frames = ReadAll(WrittenFile(name, bytes).path());
+  const WrittenFile file(name, bytes);
+  const auto recording = OpenRecording(file.path());
+  auto frames = ReadAll(*recording);
   EXPECT_EQ(frames.size(), 1U);
+  frames.at(0).remarks = recording->info().remarks->List();
   return std::move(frames.at(0));
 }
 

@@ -184,6 +184,7 @@ TEST(Ros2Stream, LetsANodeBrakeForTheWagonAhead) {
   FastReader& clouds = node.Read(kPoints, kCloudType);
   FastReader& motion = node.Read("rt/odometry", kOdometryType);
   auto& brake = node.Write("rt/brake", kTwistType);
+  ASSERT_TRUE(WaitForReader(brake));
   std::size_t seen = 0;
   double ahead_m = std::numeric_limits<double>::infinity();
   while (ahead_m > 42.0) {

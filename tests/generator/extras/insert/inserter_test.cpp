@@ -175,7 +175,8 @@ TEST_P(RoundTrip, IsNearlyAsGoodWithThePresetsNoiseAndGains) {
     SCOPED_TRACE(TextOf(figures));
     const auto on_things = static_cast<double>(figures.num_on_things);
     EXPECT_GE(static_cast<double>(figures.num_near) / on_things, least);
-    EXPECT_LE(figures.worst_intensity, 0.01);
+    // By noise, what lies behind a thing is strong enough to be part of an echo, or is not.
+    EXPECT_LE(figures.worst_intensity, 0.025);
     EXPECT_EQ(figures.num_changed_in_vain, 0U);
   }
 }
