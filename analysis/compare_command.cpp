@@ -1,3 +1,4 @@
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -115,18 +116,17 @@ int RunAblation(const CompareOptions& options, const std::string& command_line) 
   if (options.sensor) scenario = PickSensor(scenario, options.sensor);
   if (options.seed) scenario.seed = *options.seed;
   const std::vector<std::string> names = SensorNames(scenario);
-  if (names.size() > 1 && options.output.is_json) {
-    throw InputError("--format json: must be with --sensor, one of " +
-                     JoinInProse(names, " and ", [](const auto& name) { return Quoted(name); }) +
-                     ", each of which has a report of its own (got none)");
-  }
   const auto simulators = MakeSimulators(scenario, options.num_threads);
+  // Several reports are one JSON array.
+  const bool is_array = names.size() > 1 && options.output.is_json;
   for (std::size_t i = 0; i < simulators.size(); ++i) {
+    if (is_array) std::cout << (i == 0 ? "[" : ",");
     ReportOutput output = options.output;
     if (simulators.size() > 1 && !output.out.empty()) output.out /= names[i];
     const ScenarioSpec picked = simulators.size() > 1 ? PickSensor(scenario, names[i]) : scenario;
     EmitReport(AblateSensor(options, picked, *simulators[i], command_line), output, "ablation");
   }
+  if (is_array) std::cout << "]\n";
   return kExitSuccess;
 }
 

@@ -52,7 +52,7 @@ TEST(RailcastAnalyzeCompare, ComparesTwoClouds) {
   EXPECT_TRUE(std::filesystem::exists(out / "report.html"));
 }
 
-TEST(RailcastAnalyzeCompare, PrintsJsonOfOneSensorOnly) {
+TEST(RailcastAnalyzeCompare, PrintsTheReportsOfSeveralSensorsAsOneArray) {
   const TemporaryFolder folder;
   const auto scenario = WriteScenario(folder);
   PlainJson both = PlainJson::parse(ReadFileWhole(scenario));
@@ -61,12 +61,11 @@ TEST(RailcastAnalyzeCompare, PrintsJsonOfOneSensorOnly) {
   both["lidars"][1]["name"] = "roof";
   both.erase("lidar");
   WriteFileWhole(scenario, both.dump());
-  const Ended run = Compare("--ablate " + scenario.string() + " --format json");
-  EXPECT_EQ(run.status, 1);
-  EXPECT_EQ(
-      run.said,
-      "--format json: must be with --sensor, one of \"front\" and \"roof\", each of which has "
-      "a report of its own (got none)\n");
+  const Ended run = Compare("--ablate " + scenario.string() + " --frames 1 --format json");
+  EXPECT_EQ(run.status, 0);
+  const PlainJson reports = PlainJson::parse(run.said);
+  ASSERT_EQ(reports.size(), 2U);
+  EXPECT_EQ(reports[0].at("title"), reports[1].at("title"));
 }
 
 TEST(RailcastAnalyzeCompare, RefusesDistancesThatAreNone) {
