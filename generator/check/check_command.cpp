@@ -8,6 +8,7 @@
 #include "core/base/text.h"
 #include "core/certify/certifier.h"
 #include "core/fidelity/choice_report.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/write_file.h"
 #include "core/scenario/track_limits.h"
 #include "core/simulate/detail_choice.h"
@@ -156,6 +157,9 @@ int RunCheck(const CheckOptions& options) {
   const auto cost_share = CertifiedShareOf(options.certify);
   if (cost_share && options.resolved == "-") {
     throw InputError("--certify: must be without --resolved -, which has no other output");
+  }
+  if (options.resolved && options.resolved != "-") {
+    CheckOutputFiles({{"SCENARIO", options.scenario}}, {{"--resolved", *options.resolved}});
   }
   ErrorList faults;
   for (const std::string& fault : CheckScenario(options.scenario)) faults.AddLine(fault);

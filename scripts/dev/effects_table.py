@@ -83,7 +83,8 @@ def ablated(build, scenario, *options):
         said = subprocess.run([build / "analysis" / "railcast-analyze", "compare", "--ablate", file.name,
                                "--format", "json", *options],
                               check=True, stdout=subprocess.PIPE, text=True).stdout
-    return dict(zip((lidar["name"] for lidar in scenario["lidars"]), json.loads(said)))
+    reports = json.loads(said)  # Of several sensors a list.
+    return dict(zip((lidar["name"] for lidar in scenario["lidars"]), reports if isinstance(reports, list) else [reports]))
 
 
 def rows_of(report, key):

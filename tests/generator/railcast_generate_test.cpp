@@ -162,6 +162,8 @@ TEST(RailcastGenerate, WritesNeitherOverItsScenarioNorTwoFilesAsOne) {
   EXPECT_THAT(Generate(sequence + " --summary " + scenario), ExitsWith(1, fault));
   EXPECT_THAT(Generate("stream " + scenario + " --duration 1 --to :9 --summary " + scenario),
               ExitsWith(1, fault));
+  EXPECT_THAT(Generate("check " + scenario + " --resolved " + scenario),
+              ExitsWith(1, "--resolved: must not be SCENARIO or in it (got " + scenario + ")\n"));
   EXPECT_EQ(ReadFileWhole(scenario), text);
   const std::string picture = (directory.path() / "p.png").string();
   EXPECT_THAT(Generate(sequence + " --picture " + picture + " --summary " + picture),
