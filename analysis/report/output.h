@@ -20,7 +20,8 @@ struct ReportOutput {
 void AddReportOptions(ProgramOptions& command, ReportOutput& output);
 
 /// To be called when a command begins, before hours of work: checks that a report can be written to
-/// a folder, and is to be outside of those of CheckIsOutside(). Leaves no folder.
+/// a folder, and is to be outside of those of CheckIsOutside(). Leaves
+/// no folder but those above it.
 /// @param out Nothing is checked if it is empty.
 /// @throws InputError if it cannot or must not.
 void CheckReportFolder(const std::filesystem::path& out);

@@ -162,7 +162,7 @@ TEST(ReceiveCommand, ReplacesNoFramesOfOtherRecordings) {
   const std::string command = Receive() + "--frames 1 --out " + out.string();
   EXPECT_EQ(RunCommand(command).said,
             (out / "frames").string() + ": must be empty: frames are there already\n");
-  WriteFileWhole(out / "frames.jsonl", "");
+  for (const char* const name : {"frames.jsonl", "run.json"}) WriteFileWhole(out / name, "");
   EXPECT_EQ(RunCommand(command).said,
             "--out: must be outside " + out.string() +
                 ", which holds nothing but what belongs to its frames.jsonl (got " + out.string() +

@@ -31,11 +31,11 @@ std::string GeoKeys(std::uint16_t key, std::uint16_t value) {
 constexpr std::size_t kNumPoints = 6;
 
 /// Points in the place that the header's bounds state.
-std::string LasOf(int minor_version, int format, const std::string& record = {}) {
-  const MadeLas las{.minor_version = minor_version,
-                    .format = format,
-                    .records = record,
-                    .num_records = record.empty() ? 0U : 1U};
+std::string LasOf(int minor_version,
+                  int format,
+                  const std::string& record = LasRecord(34735, GeoKey(3076, 9001))) {
+  const MadeLas las{
+      .minor_version = minor_version, .format = format, .records = record, .num_records = 1};
   std::string bytes = las.Bytes(kNumPoints);
   const std::array<double, 6> bounds = {5006.0, 5001.0, 299'998.0, 299'988.0, 0.345, 0.345};
   for (std::size_t i = 0; i < bounds.size(); ++i) PutNumber(bytes, 179 + 8 * i, bounds.at(i));

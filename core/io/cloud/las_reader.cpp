@@ -159,7 +159,8 @@ StatedUnit CheckGeoKeys(const Bytes& keys) {
     values[key] = value;
   }
   // A geographic system that no projected one is made of.
-  if (values[1024] == 0 && values[2048] != 0 && values[3072] == 0) RefuseUnit("degrees");
+  const bool is_projected = values[3072] != 0 || values[3076] != 0;
+  if (values[1024] == 0 && values[2048] != 0 && !is_projected) RefuseUnit("degrees");
   constexpr int kUserDefined = 32767;
   StatedUnit unit_of{.is_metre = values[3076] != 0};
   std::string& codes = unit_of.codes;
@@ -222,6 +223,7 @@ void CheckRecord(std::string_view user, int id, std::string_view content, Stated
   if (id != 34735) return;
   const StatedUnit said = CheckGeoKeys(Bytes(content));
   unit.is_metre = unit.is_metre || said.is_metre;
+  if (!unit.codes.empty() && !said.codes.empty()) unit.codes += ", ";
   unit.codes += said.codes;
 }
 
@@ -371,7 +373,7 @@ Cloud CloudOfLas(const std::string& name, std::string_view bytes) {
       {.kind = RemarkKind::kUnitsAssumed,
        .place = name,
        .number = unit.is_metre && unit.codes.empty() ? 0U : 1U,
-       .detail = unit.codes.empty() ? "no coordinate system" : unit.codes},
+       .detail = unit.codes},
       {.kind = RemarkKind::kFieldsLeftOut,
        .place = name,
        .number = left_out.size(),

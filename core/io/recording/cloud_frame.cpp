@@ -36,7 +36,7 @@ bool IsScanTime(double span_s) {
 }
 
 /// Whether a time would be one from 2000 to 2100 if it counted microseconds since 1970. As
-/// nanoseconds it would be 11 to 47 days.
+/// nanoseconds it would be 11 to 47 days: a scan by such a clock and a drive look alike.
 bool AreMicrosecondsOfCalendar(double time) {
   constexpr double kBegin_us = 946'684'800e6;
   constexpr double kEnd_us = 4'102'444'800e6;

@@ -60,11 +60,13 @@ void SortNaturally(std::vector<fs::path>& paths) {
   });
 }
 
+constexpr std::size_t kNanosecondDigits = 9;
+
 /// A name with one number, which may have a decimal point: "cloud_", "12", "5", "".
 struct DecimalName {
   std::string before;
   std::string whole;     ///< Without zeros in front.
-  std::string fraction;  ///< As written.
+  std::string fraction;  ///< As written, but for zeros behind nanoseconds.
   std::string after;
   bool has_point{};
 
@@ -86,21 +88,23 @@ std::optional<DecimalName> DecimalNameOf(const fs::path& file) {
   if (decimal.has_point) decimal.fraction = TakeAllDigits(rest);
   if (decimal.before.size() == name.size() || std::ranges::any_of(rest, IsDigit))
     return std::nullopt;
+  const std::size_t last = decimal.fraction.find_last_not_of('0');
+  decimal.fraction.resize(std::min(decimal.fraction.size(), std::max(last + 1, kNanosecondDigits)));
   decimal.after = rest;
   return decimal;
 }
 
-constexpr std::size_t kNanosecondDigits = 9;
-
 /// Fills up fractions that are numbers of nanoseconds without zeros in front, as pcl_ros of ROS 2
-/// writes them: the longest has nine digits, which a decimal number of such seconds never has, and
-/// no shorter one begins with 0, as one in ten decimal fractions does.
+/// writes them: the longest has nine digits, none begins with 0, as one in ten decimal fractions
+/// does, and none is as short as 5, half a second or 5 ns.
 void FillUpNanoseconds(std::vector<DecimalName>& names) {
   std::size_t longest = 0;
   for (const DecimalName& name : names) {
     const std::string& fraction = name.fraction;
     longest = std::max(longest, fraction.size());
-    if (!name.has_point || (fraction.size() > 1 && fraction.front() == '0')) return;
+    constexpr std::size_t kLeastDigits = 4;
+    if (!name.has_point) return;
+    if (fraction != "0" && (fraction.front() == '0' || fraction.size() < kLeastDigits)) return;
   }
   if (longest != kNanosecondDigits) return;
   for (DecimalName& name : names) {

@@ -71,6 +71,8 @@ double VarianceInRows(const StoredGrid& grid, const PointPositions& positions) {
 StoredGrid FindGrid(const Cloud& cloud, const PointPositions& positions, const CloudField* ring) {
   const StoredGrid by_rows{cloud.height, cloud.width, false};
   const StoredGrid by_columns{cloud.width, cloud.height, true};
+  // Lasers are fewer than firings.
+  if (ring == nullptr && by_columns.rows >= by_rows.rows) return by_rows;
   if (ring == nullptr) {
     constexpr double kClear = 16.0;  // A quarter of the standard deviation.
     const double along_columns = VarianceInRows(by_columns, positions);

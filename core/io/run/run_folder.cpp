@@ -35,16 +35,25 @@ bool LockFolder(int folder) {
   return false;
 }
 
-/// Files that only folders of railcast's have: what run.json or study.json is called may be a
-/// user's own scenario or study.
-constexpr std::array<std::string_view, 6> kOwnFiles = {
-    kFramesFile, kInsertFile, "convert.jsonl", "scenarios.jsonl", "approaches.jsonl", kSurveyFile};
+/// Files that together only folders of railcast's have: what run.json or study.json is called alone
+/// may be a user's own scenario or study.
+struct OwnFiles {
+  std::string_view name;
+  std::string_view beside{};  ///< Empty: none.
+};
+constexpr std::array<OwnFiles, 6> kOwnFiles = {{{kFramesFile, kRunFile},
+                                                {kInsertFile},
+                                                {"convert.jsonl"},
+                                                {"scenarios.jsonl", kDatasetFile},
+                                                {"approaches.jsonl", "study.json"},
+                                                {kSurveyFile}}};
 
 /// The file by which a folder is known as railcast's; empty if it is not.
 std::string_view OwnFileIn(const std::filesystem::path& folder) {
   std::error_code error;
-  for (const std::string_view name : kOwnFiles) {
-    if (std::filesystem::exists(folder / name, error)) return name;
+  for (const auto& [name, beside] : kOwnFiles) {
+    // Without a second file, the folder itself is the second.
+    if (exists(folder / name, error) && exists(folder / beside, error)) return name;
   }
   if (!std::filesystem::exists(folder / kSensorsFile, error)) return "";
   ErrorList others;  // Other files are called sensors.json, too.

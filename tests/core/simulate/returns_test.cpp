@@ -171,14 +171,13 @@ TEST(Returns, LetTheFirstSlotSayWhatAFiringWithoutReturnMissed) {
   EXPECT_EQ(frame.outcome[5], Outcome::kNoFurtherEcho);
 }
 
-TEST(Returns, KeepWhatTheCentralRaySaysWhereNoSurfaceWasTooWeak) {
+TEST(Returns, KeepTheVehiclesOwnBodyWhereNoSurfaceWasTooWeak) {
   EXPECT_EQ(StoreOne({.mode = ReturnMode::kStrongest},
                      {{0.3F, 80.0F, Outcome::kEgo}, {1.0F, 2.0F, Outcome::kSensorDropout, 0, 23}})
                 .outcome[2],
             Outcome::kEgo);
 }
 
-// Fog that was too weak says nothing of the surface behind it, which the sensor has missed.
 TEST(Returns, SayOfALostFiringWhatFilledMostOfItsBeam) {
   std::vector<HandMade> echoes = {{10.0F, 9.0F, Outcome::kSensorDropout, 1},
                                   {20.0F, 2.0F, Outcome::kSensorDropout, 2},
@@ -191,6 +190,7 @@ TEST(Returns, SayOfALostFiringWhatFilledMostOfItsBeam) {
   EXPECT_EQ(Chosen({.mode = ReturnMode::kStrongest}, echoes), (Surfaces{1}));
 }
 
+// Fog that was too weak says nothing of the surface behind it, which the sensor has missed.
 TEST(Returns, DoNotSayThatEchoesFromTheAirWereMissed) {
   EXPECT_EQ(
       StoreOne({.mode = ReturnMode::kStrongest}, {{40.0F, 0.4F, Outcome::kSensorDropout, 1},

@@ -113,13 +113,17 @@ std::optional<std::string> OusterDecoder::RefuseColumns(std::span<const char> pa
       return "column " + NumberText(i) + ": measurement id must be < " +
              NumberText(metadata_.columns_per_frame) + Got(column.measurement_id);
     }
-    if (layout_.is_legacy() && column.measurement_id > 0) {
-      // Other programs may write 0; another mode of the sensor has twice or half as many columns.
+    constexpr std::uint16_t kFirstClear = 16;  // Where a few counts are a small part.
+    if (layout_.is_legacy() && column.measurement_id >= kFirstClear) {
+      // Of another mode of the sensor, which has twice or half as many columns, or four times.
       const double ticks = layout_.EncoderTicksOf(payload, i);
       const double expected =
           double{kOusterTicks} * column.measurement_id / metadata_.columns_per_frame;
-      constexpr double kMostOff = 0.25;
-      if (ticks > 0.0 && std::abs(ticks - expected) > kMostOff * expected) {
+      const auto is_of_mode = [&](double factor) {
+        constexpr double kMostOff = 0.1;
+        return std::abs(ticks / expected / factor - 1.0) < kMostOff;
+      };
+      if (is_of_mode(0.25) || is_of_mode(0.5) || is_of_mode(2.0) || is_of_mode(4.0)) {
         return "column " + NumberText(i) + ": encoder count must be near " +
                NumberText(std::round(expected)) +
                " by its measurement id and the metadata's lidar mode" + Got(ticks);

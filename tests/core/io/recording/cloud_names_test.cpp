@@ -65,6 +65,10 @@ TEST(CloudNames, MayHaveNanosecondsWithoutZerosInFront) {
   using Paths = std::vector<std::filesystem::path>;
   EXPECT_THAT(StampsOfNames(Paths{"17.49999872.pcd", "17.149999875.pcd"}),
               ElementsAre(17'049'999'872, 17'149'999'875));
+  EXPECT_THAT(FramesOf({"17.5.pcd", "17.166666667.pcd", "17.333333333.pcd"}),
+              ElementsAre("17.166666667.pcd", "17.333333333.pcd", "17.5.pcd"));
+  EXPECT_THAT(StampsOfNames(Paths{"17.1000000000.pcd", "17.2.pcd"}),
+              ElementsAre(17'100'000'000, 17'200'000'000));
   // Decimal fractions may begin with zeros.
   EXPECT_THAT(StampsOfNames(Paths{"17.04999987.pcd", "17.149999875.pcd"}),
               ElementsAre(17'049'999'870, 17'149'999'875));

@@ -40,6 +40,9 @@ class OutputPlaces : public testing::Test {
 TEST_F(OutputPlaces, AreNotInFoldersOfRailcast) {
   for (const std::string name : {"frames.jsonl", "insert.jsonl", "convert.jsonl", "scenarios.jsonl",
                                  "approaches.jsonl", "scene.survey"}) {
+    for (const std::string beside : {"run.json", "dataset.json", "study.json"}) {
+      Write("run/" + beside);
+    }
     Write("run/" + name);
     for (const std::string out : {"run", "run/stats", "run/frames/more"}) {
       EXPECT_EQ(FaultOf(Path(out)), Refusal(name, Path(out)));
@@ -63,10 +66,15 @@ TEST_F(OutputPlaces, MayBeBesideFilesThatUsersNameAsRailcastDoes) {
     Write("mine/" + name);
   }
   EXPECT_EQ(FaultOf(Path("mine/stats")), "no error");
+  for (const std::string name : {"frames.jsonl", "scenarios.jsonl", "approaches.jsonl"}) {
+    Write("other/" + name);
+  }
+  EXPECT_EQ(FaultOf(Path("other/stats")), "no error");
 }
 
 TEST_F(OutputPlaces, AreFollowed) {
   Write("run/frames.jsonl");
+  Write("run/run.json");
   fs::create_directory_symlink("run", Path("link"));
   EXPECT_EQ(FaultOf(Path("link/stats")), Refusal("frames.jsonl", Path("link/stats")));
   const fs::path before = fs::current_path();

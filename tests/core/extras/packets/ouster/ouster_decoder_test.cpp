@@ -180,17 +180,18 @@ TEST(OusterDecoder, RefusesLegacyPacketsOfAnotherMode) {
   const MadePackets made("LEGACY");
   const OusterDecoder decoder(made.metadata());
   const OusterLayout layout(made.metadata());
-  std::vector<char> packet = made.Packet(1, 0);
+  std::vector<char> packet = made.Packet(1, 16);
   EXPECT_EQ(decoder.Refuse(packet), std::nullopt);
-  const auto store = [&](std::uint32_t ticks) {
-    layout.Store({.measurement_id = 1, .is_valid = true}, 1, 1, ticks, packet);
+  const auto refusal = [&](std::uint32_t ticks) {
+    layout.Store({.measurement_id = 20, .is_valid = true}, 4, 1, ticks, packet);
+    return decoder.Refuse(packet);
   };
-  store(180);
-  EXPECT_EQ(decoder.Refuse(packet), std::nullopt);
-  store(88);
-  EXPECT_EQ(decoder.Refuse(packet),
-            "column 1: encoder count must be near 176 by its measurement id and the metadata's "
-            "lidar mode (got 88)");
+  EXPECT_EQ(refusal(20 * 176 + 3), std::nullopt);
+  EXPECT_EQ(refusal(0), std::nullopt) << "as other programs write it";
+  EXPECT_EQ(refusal(20 * 88),
+            "column 4: encoder count must be near 3520 by its measurement id and the metadata's "
+            "lidar mode (got 1760)");
+  EXPECT_NE(refusal(20 * 352), std::nullopt);
 }
 
 TEST(OusterDecoder, SaysWhyAPacketIsRefused) {
