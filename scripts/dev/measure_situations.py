@@ -72,7 +72,8 @@ def rows_of(report, table):
 
 def detections(build, folder):
     """{object: what the table says} by `railcast-analyze detect` of one run."""
-    report = folder.with_name(folder.name + "_detect")
+    run = folder.parent if (folder.parent / "sensors.json").exists() else folder
+    report = run.with_name(f"{run.name}_{folder.name}_detect")
     subprocess.run([build / "analysis/railcast-analyze", "detect", folder, "--out", report],
                    check=True, capture_output=True)
     # An object that the first frames show may have been there to be seen from farther away.

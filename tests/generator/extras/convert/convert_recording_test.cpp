@@ -75,7 +75,9 @@ std::vector<std::string> AllFormats() {
 
 TEST_F(ConvertRecording, KeepsOutOfTheSequenceOfItsClouds) {
   fs::create_directories(Path("run/frames"));
-  WriteFileWhole(Path("run/frames.jsonl"), "");
+  for (const char* const name : {"run/frames.jsonl", "run/run.json"}) {
+    WriteFileWhole(Path(name), "");
+  }
   EXPECT_THAT(RunCommand(RAILCAST_GENERATE " convert " + Path("run/frames").string() + " " +
                          Path("run/out").string()),
               ExitsWith(1, testing::StartsWith("OUT: must be outside ")));
