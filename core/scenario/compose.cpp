@@ -1,5 +1,3 @@
-#include <tbb/global_control.h>
-#include <tbb/info.h>
 #include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
@@ -11,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
+#include "core/base/parallelism.h"
 #include "core/base/units.h"
 #include "core/detect/detector/effect_table.h"
 #include "core/rail/world/world_draft.h"
@@ -217,10 +216,7 @@ std::vector<std::unique_ptr<Simulator>> MakeSimulators(const ScenarioSpec& spec,
       }));
     }
   };
-  // Otherwise TBB warns where there are more threads than cores.
-  const tbb::global_control parallelism(
-      tbb::global_control::max_allowed_parallelism,
-      static_cast<std::size_t>(std::max(num_threads, tbb::info::default_concurrency())));
+  const auto allowed = AllowThreads(num_threads);
   // The first frame needs the plants, too. They are made by threads that have nothing else to do.
   tbb::task_arena arena(num_threads > 0 ? num_threads : tbb::task_arena::automatic);
   arena.execute([&] { tbb::parallel_invoke([&] { (*world)->PreparePlants(); }, make); });

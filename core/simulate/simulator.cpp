@@ -1,7 +1,6 @@
 #include "railcast/simulator.h"
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -14,6 +13,7 @@
 
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
+#include "core/base/parallelism.h"
 #include "core/base/units.h"
 #include "core/detect/base/beam_optics.h"
 #include "core/detect/base/wind_velocity.h"
@@ -108,10 +108,7 @@ Transform Simulator::WorldFromSensor(std::int64_t time_ns) const {
 
 void Simulator::UseThreads(int num_threads) {
   const int num_workers = num_threads > 0 ? num_threads : tbb::info::default_concurrency();
-  // Without this, TBB starts no more threads than there are cores.
-  parts_->parallelism = std::make_unique<tbb::global_control>(
-      tbb::global_control::max_allowed_parallelism,
-      static_cast<std::size_t>(std::max(num_workers, tbb::info::default_concurrency())));
+  parts_->parallelism = AllowThreads(num_workers);
   parts_->arena.terminate();
   parts_->arena.initialize(num_workers);
 }

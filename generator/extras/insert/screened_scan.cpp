@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/parallelism.h"
 #include "core/base/units.h"
 #include "core/detect/base/beam_optics.h"
 #include "core/detect/base/weather_optics.h"
@@ -408,17 +409,13 @@ ScreenedScan::ScreenedScan(std::shared_ptr<const World> world,
       .range_max_m = spec.detector.range_max_m,
       .vehicle_from_sensor = spec.vehicle_from_sensor * spec.nominal_from_true};
   const int num_workers = num_threads > 0 ? num_threads : tbb::info::default_concurrency();
-  parts_.reset(new Parts{
-      .own{ForRecorded(spec)},
-      .first_material =
-          static_cast<std::uint16_t>(library.materials().size() - kNumScreenMaterials),
-      .materials = library.materials(),
-      .scenes{MakeSceneStore(std::move(world), library, spec.isa), scene_spec},
-      // Without this, TBB starts no more threads than there are cores.
-      .parallelism = std::make_unique<tbb::global_control>(
-          tbb::global_control::max_allowed_parallelism,
-          static_cast<std::size_t>(std::max(num_workers, tbb::info::default_concurrency()))),
-      .arena{num_workers}});
+  parts_.reset(new Parts{.own{ForRecorded(spec)},
+                         .first_material = static_cast<std::uint16_t>(library.materials().size() -
+                                                                      kNumScreenMaterials),
+                         .materials = library.materials(),
+                         .scenes{MakeSceneStore(std::move(world), library, spec.isa), scene_spec},
+                         .parallelism = AllowThreads(num_workers),
+                         .arena{num_workers}});
   parts_->scenes.UseMotion(spec.detector.velocity.has_value());
   parts_->scenes.UseTexture(spec.detector.effects.texture);
 }

@@ -1,7 +1,5 @@
 #include "generator/extras/insert/run/frame_folder.h"
 
-#include <tbb/global_control.h>
-#include <tbb/info.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/parallelism.h"
 #include "core/extras/insert/convert_record.h"
 #include "core/extras/insert/insertion_verification.h"
 #include "core/io/content_hash.h"
@@ -47,10 +46,7 @@ std::vector<LineFileName> WithLedger(const FrameFolderSpec& spec) {
 }  // namespace
 
 void WithFramePipe(int num_threads, const std::function<void(FramePipe& pipe)>& work) {
-  // As in MakeSimulators(): more threads than there are cores.
-  const tbb::global_control parallelism(
-      tbb::global_control::max_allowed_parallelism,
-      static_cast<std::size_t>(std::max(num_threads, tbb::info::default_concurrency())));
+  const auto allowed = AllowThreads(num_threads);
   tbb::task_arena arena(num_threads == 0 ? tbb::task_arena::automatic : num_threads);
   FramePipe pipe;
   pipe.num_at_once = static_cast<std::size_t>(arena.max_concurrency()) + 1;
