@@ -2,9 +2,12 @@
 
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 
+#include "core/base/input_file.h"
+#include "core/io/write_file.h"
 #include "tests/core/scenario/scenario_files.h"
 #include "tests/support/run_command.h"
 
@@ -49,6 +52,16 @@ inline std::filesystem::path WriteScenario(const TemporaryFolder& folder,
     "vehicle": {"start_s_m": 400},
     "materials": ")" + scenarios + R"(/materials/railway.json",
     "labels": ")" + scenarios + R"(/labels.json"})");
+}
+
+/// Gives a scenario its sensor twice, as "front" and "roof".
+inline void DoubleSensor(const std::filesystem::path& scenario) {
+  auto both = nlohmann::json::parse(ReadFileWhole(scenario));
+  both["lidars"] = {both["lidar"], both["lidar"]};
+  both["lidars"][0]["name"] = "front";
+  both["lidars"][1]["name"] = "roof";
+  both.erase("lidar");
+  WriteFileWhole(scenario, both.dump());
 }
 
 }  // namespace railcast

@@ -55,12 +55,7 @@ TEST(RailcastAnalyzeCompare, ComparesTwoClouds) {
 TEST(RailcastAnalyzeCompare, PrintsTheReportsOfSeveralSensorsAsOneArray) {
   const TemporaryFolder folder;
   const auto scenario = WriteScenario(folder);
-  PlainJson both = PlainJson::parse(ReadFileWhole(scenario));
-  both["lidars"] = {both["lidar"], both["lidar"]};
-  both["lidars"][0]["name"] = "front";
-  both["lidars"][1]["name"] = "roof";
-  both.erase("lidar");
-  WriteFileWhole(scenario, both.dump());
+  DoubleSensor(scenario);
   const Ended run = Compare("--ablate " + scenario.string() + " --frames 1 --format json");
   EXPECT_EQ(run.status, 0);
   const PlainJson reports = PlainJson::parse(run.said);

@@ -105,12 +105,7 @@ TEST(StatsCommand, ShowsFramesOfEverySensorAndCamera) {
   const TemporaryFolder folder;
   const auto scenario = WriteScenario(
       folder, R"("camera": {"width_px": 64, "height_px": 48, "horizontal_fov_deg": 60},)");
-  PlainJson both = PlainJson::parse(ReadFileWhole(scenario));
-  both["lidars"] = {both["lidar"], both["lidar"]};
-  both["lidars"][0]["name"] = "front";
-  both["lidars"][1]["name"] = "roof";
-  both.erase("lidar");
-  WriteFileWhole(scenario, both.dump());
+  DoubleSensor(scenario);
   const auto run = scenario.parent_path() / "run";
   const auto out = scenario.parent_path() / "out";
   ASSERT_THAT(RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() + " --out " +
