@@ -192,6 +192,10 @@ TEST(OusterDecoder, RefusesLegacyPacketsOfAnotherMode) {
             "column 4: encoder count must be near 3520 by its measurement id and the metadata's "
             "lidar mode (got 1760)");
   EXPECT_NE(refusal(20 * 352), std::nullopt);
+  // Nor is the first packet of a turn taken.
+  std::vector<char> first = made.Packet(1, 0);
+  layout.Store({.measurement_id = 8, .is_valid = true}, 8, 1, 8 * 88, first);
+  EXPECT_NE(decoder.Refuse(first), std::nullopt);
 }
 
 TEST(OusterDecoder, SaysWhyAPacketIsRefused) {
