@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <numeric>
 #include <vector>
+
+#include "core/base/text_number.h"
 
 namespace railcast {
 namespace {
@@ -151,6 +155,44 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
     }
   }
   return row.back();
+}
+
+std::optional<double> ParseOddReal(std::string_view word) {
+  const bool is_negative = word.starts_with('-');
+  if (is_negative) word.remove_prefix(1);
+  double number{};
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (error == std::errc::result_out_of_range && end == word.data() + word.size()) {
+    const std::size_t exponent = word.find_first_of("eE");
+    const bool is_small = exponent == std::string_view::npos
+                              ? word.starts_with("0")
+                              : word.substr(exponent + 1).starts_with('-');
+    number = is_small ? 0.0 : kInfinity;
+    return is_negative ? -number : number;
+  }
+  std::string lower;
+  for (const char letter : word) {
+    lower += letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+  }
+  std::string_view rest = lower;
+  // Microsoft's: "1.#IND00", to so many decimals; with the comma of other languages, too.
+  const bool is_marked = rest.starts_with("1.#") || rest.starts_with("1,#");
+  if (is_marked) rest.remove_prefix(3);
+  const std::size_t letters =
+      std::min(rest.find_first_not_of("abcdefghijklmnopqrstuvwxyz"), rest.size());
+  const std::string_view name = rest.substr(0, letters);
+  const std::string_view tail = rest.substr(letters);
+  const bool has_tail = tail.find_first_not_of("0123456789") == std::string_view::npos ||
+                        (tail.starts_with('(') && tail.ends_with(')'));
+  if (!has_tail) return std::nullopt;
+  for (const char* const infinite : {"inf", "infinity"}) {
+    if (name == infinite) return is_negative ? -kInfinity : kInfinity;
+  }
+  for (const char* const none : {"nan", "nanq", "nans", "qnan", "snan", "ind"}) {
+    if (name == none) return std::numeric_limits<double>::quiet_NaN();
+  }
+  return std::nullopt;
 }
 
 }  // namespace railcast

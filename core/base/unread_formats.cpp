@@ -9,6 +9,7 @@
 
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
+#include "core/base/text_number.h"
 
 namespace railcast {
 namespace {
@@ -70,7 +71,7 @@ std::string AdviceOnText(std::string_view begin) {
     const auto words = Words(plain);
     if (words.empty() || words[0].starts_with('#')) continue;
     const bool are_numbers = std::ranges::all_of(
-        words, [](std::string_view word) { return ParseSignedNumber<double>(word).has_value(); });
+        words, [](std::string_view word) { return ParseTextNumber<double>(word).has_value(); });
     if (!are_numbers || words.size() < 3) continue;  // The names of columns.
     const std::string numbers = NumberText(words.size()) + " numbers a line";
     if (words.size() == 8 || words.size() == 12) {

@@ -12,6 +12,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/text_number.h"
 #include "core/mesh/polygon_soup.h"
 
 namespace railcast {
@@ -28,7 +29,7 @@ std::optional<double> LuminanceOfKd(const std::vector<std::string_view>& words,
     const std::string_view word = i + 1 < words.size() ? words[i + 1]
                                   : words.size() == 2  ? words[1]
                                                        : std::string_view();
-    const auto number = ParseSignedNumber<double>(word);
+    const auto number = ParseTextNumber<double>(word);
     if (!number || !(*number >= 0.0 && *number <= 1.0)) {
       throw InputError(place + ": Kd must be three numbers from 0 to 1 (got \"" + ShownText(line) +
                        "\")");
@@ -187,7 +188,7 @@ void ObjReader::ReadVertex(std::string_view rest) {
   Vector3& point = soup_.points.emplace_back(Vector3::Zero());
   for (int axis = 0; axis < 3; ++axis) {
     const std::string_view token = NextToken(rest);
-    const std::optional<double> number = ParseSignedNumber<double>(token);
+    const std::optional<double> number = ParseTextNumber<double>(token);
     if (!number || !(std::abs(*number) <= largest_)) {
       Fail("a vertex must have three finite coordinates", token);
     }
@@ -207,7 +208,7 @@ void ObjReader::ReadFace(std::string_view rest) {
 /// The vertex index of a face corner: 1 is the first vertex, and -1 is the last one read so far.
 int ObjReader::VertexOf(std::string_view corner) {
   const std::string_view index = corner.substr(0, corner.find('/'));
-  const std::optional<int> number = ParseSignedNumber<int>(index);
+  const std::optional<int> number = ParseTextNumber<int>(index);
   if (!number) Fail("a face must name vertices by number", corner);
   const auto num_vertices = static_cast<int>(soup_.points.size());
   if (*number == 0 || *number < -num_vertices) FailIndex(index);

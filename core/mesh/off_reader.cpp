@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/text_number.h"
 
 namespace railcast {
 namespace {
@@ -79,7 +80,7 @@ class OffReader {
   template <typename Number>
   [[nodiscard]] Number NumberAt(std::size_t i, const char* rule) const {
     const std::string_view word = i < lines_.words().size() ? lines_.words()[i] : "";
-    const auto number = ParseSignedNumber<Number>(word);
+    const auto number = ParseTextNumber<Number>(word);
     if (!number) Fail(rule, word);
     return *number;
   }

@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/number_type.h"
 #include "core/base/text.h"
+#include "core/base/text_number.h"
 #include "core/mesh/polygon_soup.h"
 
 namespace railcast {
@@ -280,7 +281,7 @@ class Reader {
       Fail("element " + ShownText(element.name) + ": must have all of its numbers in its line");
     }
     rest_.remove_prefix(word.size());
-    const auto number = ParseSignedNumber<double>(word);
+    const auto number = ParseTextNumber<double>(word);
     if (!number) {
       Fail("element " + ShownText(element.name) + ": must consist of numbers (got \"" +
            ShownText(word) + "\")");

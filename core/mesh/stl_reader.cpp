@@ -13,6 +13,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/text_number.h"
 
 namespace railcast {
 namespace {
@@ -64,7 +65,7 @@ class AsciiStlReader {
     Vector3 point;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::string_view word = axis < words.size() ? words[axis] : std::string_view();
-      const auto number = ParseSignedNumber<double>(word);
+      const auto number = ParseTextNumber<double>(word);
       if (!number || !std::isfinite(*number)) {
         Fail("a vertex must have three finite coordinates", line);
       }

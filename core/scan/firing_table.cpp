@@ -1,14 +1,15 @@
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <istream>
 #include <memory>
+#include <sstream>
 #include <utility>
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/base/text_encoding.h"
+#include "core/base/text_number.h"
 #include "core/base/units.h"
 #include "core/scan/at128.h"
 #include "core/scan/firing.h"
@@ -60,12 +61,10 @@ bool ParseLine(std::string_view line,
   }
   bool good = true;
   for (std::size_t i = 0; i < num_columns; ++i) {
-    const char* const begin = cells[i].data();
-    const char* const end = begin + cells[i].size();
-    const auto [stop, error] = std::from_chars(begin, end, values[i]);
-    if (error == std::errc() && stop == end && std::isfinite(values[i])) continue;
-    const char* const rule =
-        error == std::errc() && stop == end ? "must be finite" : "not a number";
+    const auto value = ParseTextNumber<double>(cells[i]);
+    values[i] = value.value_or(0.0);
+    if (value && std::isfinite(*value)) continue;
+    const char* const rule = value ? "must be finite" : "not a number";
     errors.Add({place + ": " + std::string(kNames[i]), rule, Quoted(cells[i])});
     good = false;
   }
@@ -204,10 +203,11 @@ FramesOfFirings TableFirings(const FiringTableSpec& spec, double rate_hz, ErrorL
     errors.Add(FaultOf("/pattern/frames", "must be >= 1 and <= 100000", spec.frames));
     return {};
   }
-  auto file = Attempt("/pattern/file: ", errors, [&] { return OpenInput(spec.file); });
-  if (!file) return {};
+  auto text = Attempt("/pattern/file: ", errors, [&] { return ReadTextWhole(spec.file); });
+  if (!text) return {};
   if (IsAt128File(spec.file)) return At128Firings(spec, rate_hz, errors);
-  auto frames = ParseFiringTable({*file, ShownPath(spec.file), spec.frames}, rate_hz, errors);
+  std::istringstream lines(*std::move(text));
+  auto frames = ParseFiringTable({lines, ShownPath(spec.file), spec.frames}, rate_hz, errors);
   if (!errors.empty()) return {};
   if (frames.size() == 1) return {std::move(frames.front())};
   const auto shared = std::make_shared<const std::vector<FiringGrid>>(std::move(frames));

@@ -6,6 +6,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/text_encoding.h"
+#include "core/base/text_number.h"
 
 namespace railcast {
 namespace {
@@ -24,6 +26,20 @@ void CopyValues(std::size_t size, std::size_t num, Places<const char> from, Plac
   for (std::size_t i = 0; i < num; ++i, from.next += from.step, to.next += to.step) {
     std::memcpy(to.next, from.next, kSize == 0 ? size : kSize);
   }
+}
+
+/// Makes a field padding that has a word which is no value of its type.
+/// @throws InputError "place: name: no value of its type (got 256)" if it is one of a position.
+void LeaveOutField(const std::string& place,
+                   std::string_view word,
+                   CloudField& field,
+                   std::vector<Remark>& remarks) {
+  const std::string fault =
+      ShownText(field.name) + ": no value of its type (got " + ShownText(word) + ")";
+  const std::string name = LowerCase(field.plain_name());
+  if (name == "x" || name == "y" || name == "z") throw InputError(place + ": " + fault);
+  AddRemark({.kind = RemarkKind::kFieldsLeftOut, .place = place, .detail = fault}, remarks);
+  field.name = kPaddingField;
 }
 
 }  // namespace
@@ -54,12 +70,9 @@ bool Cloud::AppendWords(const std::string& place, const std::vector<std::string_
         using Value = decltype(zero);
         // A number beyond float becomes infinite, as for C's own functions.
         using Parsed = std::conditional_t<std::is_floating_point_v<Value>, double, Value>;
-        const auto parsed = ParseSignedNumber<Parsed>(*word);
-        if (!parsed) {
-          throw InputError(place + ": " + ShownText(field.name) + ": no value of its type (got " +
-                           ShownText(*word) + ")");
-        }
-        const auto value = static_cast<Value>(*parsed);
+        const auto parsed = ParseTextNumber<Parsed>(*word);
+        if (!parsed && field.name != kPaddingField) LeaveOutField(place, *word, field, remarks);
+        const auto value = static_cast<Value>(parsed.value_or(Parsed{0}));
         if constexpr (std::is_same_v<Value, float>) {
           const bool is_far = std::abs(*parsed) > kFarPosition_m;
           field.is_rounded = field.is_rounded || (is_far && double{value} != *parsed);

@@ -50,6 +50,9 @@ inline constexpr double kFarPosition_m = 10e3;
   return value_m == 0.0 || (size_m >= kLeast_m && size_m < kFarPosition_m);
 }
 
+/// The name of fields without a meaning, as in PCD.
+inline constexpr std::string_view kPaddingField = "_";
+
 /// What every point has: a number, or several of one type.
 struct CloudField {
   std::string name;
@@ -91,9 +94,11 @@ struct Cloud {
   [[nodiscard]] const CloudField* Find(std::string_view name) const;
   /// Adds a field behind the others.
   void AddField(std::string name, NumberType type, std::uint32_t count = 1);
-  /// Appends the numbers that the words of a line give to the fields one after another.
+  /// Appends the numbers that the words of a line give to the fields one after another. A field
+  /// that is no position becomes padding, with a remark, if one of its words is no value of its
+  /// type.
   /// @return Whether there are enough words.
-  /// @throws InputError "place: name: no value of its type (got 256)".
+  /// @throws InputError "place: name: no value of its type (got 256)" about a position.
   bool AppendWords(const std::string& place, const std::vector<std::string_view>& words);
   /// Makes fields double whose words were rounded (CloudField::is_rounded), so that the lines can
   /// be read again with all their digits.

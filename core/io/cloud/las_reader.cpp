@@ -16,6 +16,7 @@
 #include "core/base/join.h"
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
+#include "core/base/text_number.h"
 #include "railcast/remark.h"
 
 namespace railcast {
@@ -185,7 +186,7 @@ void CheckWktUnit(std::string_view text) {
   skip(" \t\r\n,");
   const std::string_view number = text.substr(0, text.find_first_not_of("0123456789.eE+-"));
   if (number.empty()) return;
-  const auto size = ParseSignedNumber<double>(number);
+  const auto size = ParseTextNumber<double>(number);
   const bool is_angle = size && *size > 0.015 && *size < 0.018;
   if (!is_angle && size != 1.0) RefuseUnit(std::string(name));
 }

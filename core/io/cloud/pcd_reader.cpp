@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
+#include "core/base/text_number.h"
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/cloud/pcd_encoder.h"
 
@@ -74,7 +75,7 @@ class HeaderReader {
   }
 
   [[nodiscard]] std::uint64_t Number(const std::string& key, std::string_view word) const {
-    const auto number = ParseNumber<std::uint64_t>(word);
+    const auto number = ParseTextNumber<std::uint64_t>(word);
     if (!number || *number > kMaxCloudBytes) {
       Fail(key + ": must be a whole number below 2^32 (got " + ShownText(word) + ")");
     }
@@ -136,7 +137,7 @@ void CheckViewpoint(const HeaderReader& reader, const std::string& file, Cloud& 
   const auto& words = reader.Entries("VIEWPOINT");
   bool is_origin = true;
   for (std::size_t i = 0; i < words.size() && i < kOrigin.size(); ++i) {
-    const auto number = ParseSignedNumber<double>(words[i]);
+    const auto number = ParseTextNumber<double>(words[i]);
     if (!number) reader.Fail("VIEWPOINT: must have 7 numbers (got " + ShownText(words[i]) + ")");
     is_origin = is_origin && *number == kOrigin[i];
   }

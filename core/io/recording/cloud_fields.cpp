@@ -173,7 +173,7 @@ void FillForeign(const Cloud& cloud, const SlotPlan& plan, RecordedFrame& record
   Remark left_out{.kind = RemarkKind::kFieldsLeftOut, .place = recorded.name, .number = 0};
   for (const CloudField& column : cloud.fields) {
     const std::string_view name = column.plain_name();
-    if (name == "_") continue;  // Padding of PCD.
+    if (name == kPaddingField) continue;
     const bool is_own = std::ranges::find(own, &column) != own.end();
     const bool is_wanted = recorded.foreign.size() < kMaxForeign && cloud.Find(name) == &column &&
                            std::ranges::find(kUnwanted, name) == kUnwanted.end();
@@ -344,14 +344,20 @@ void FillFrame(const Cloud& cloud, const SlotPlan& plan, RecordedFrame& recorded
     // The plan may leave slots without a point, and these keep the absent value.
     if (column == nullptr || !plan.slots.empty()) FillAbsent(values);
     if (column == nullptr) return;
-    CopyColumn(cloud, *column, plan, recorded.name, values);
-    recorded.fields.emplace(name);
+    try {
+      CopyColumn(cloud, *column, plan, recorded.name, values);
+      recorded.fields.emplace(name);
+    } catch (const InputError& error) {
+      FillAbsent(values);
+      AddRemark({.kind = RemarkKind::kFieldsLeftOut,
+                 .place = recorded.name,
+                 .detail = std::string(error.what()).substr(recorded.name.size() + 2)},
+                recorded.remarks);
+    }
   });
   MarkEmptySlots(frame, recorded.Has("range_m"));
   recorded.fields.emplace("range_m");
   TakeFromNearOrigin(cloud, plan, recorded);
-  // For slots that no point of the file fills, the file does not say why they are empty.
-  if (cloud.num_points() < frame.num_slots()) recorded.fields.erase("outcome");
   FillForeign(cloud, plan, recorded);
   if (!plan.is_grid) return;
   FillGridIndices(frame);

@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/text_number.h"
 #include "core/io/content_hash.h"
 #include "core/io/record/read_record.h"
 #include "core/scenario/archive.h"
@@ -76,7 +77,7 @@ PoseRecord ReadPoseRecord(std::string_view line, const std::string& place) {
   };
   PoseRecord pose;
   const std::string_view first = take();
-  const auto stamp_ns = ParseNumber<std::int64_t>(first);
+  const auto stamp_ns = ParseTextNumber<std::int64_t>(first);
   if (!stamp_ns) {
     throw InputError(place + ": stamp_ns: must be a whole number (got " + ShownText(first) + ")");
   }
@@ -84,7 +85,7 @@ PoseRecord ReadPoseRecord(std::string_view line, const std::string& place) {
   std::vector<double> numbers;
   while (!line.empty()) {
     const std::string_view word = take();
-    const auto number = ParseNumber<double>(word);
+    const auto number = ParseTextNumber<double>(word);
     if (!number) throw InputError(place + ": must be numbers (got " + ShownText(word) + ")");
     numbers.push_back(*number);
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -11,6 +10,8 @@
 #include "core/base/input_file.h"
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
+#include "core/base/text_encoding.h"
+#include "core/base/text_number.h"
 
 namespace railcast {
 namespace {
@@ -56,12 +57,9 @@ class GridWords {
   /// Reads the next word as a number.
   double NextNumber() {
     const std::string_view word = Next();
-    double value{};
-    const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || stop != word.data() + word.size() || !std::isfinite(value)) {
-      FailReading(Place(), "not a number", Quoted(word));
-    }
-    return value;
+    const auto value = ParseTextNumber<double>(word);
+    if (!value || !std::isfinite(*value)) FailReading(Place(), "not a number", Quoted(word));
+    return *value;
   }
 
  private:
@@ -136,7 +134,7 @@ std::array<double, 4> CubicWeights(double t) {
 
 ElevationGrid::ElevationGrid(const std::filesystem::path& file)
     : ElevationGrid(
-          WithinMemory([&] { return ReadingText(file); }, [&] { return ReadFileWhole(file); }),
+          WithinMemory([&] { return ReadingText(file); }, [&] { return ReadTextWhole(file); }),
           ShownPath(file.filename())) {}
 
 ElevationGrid::ElevationGrid(std::string_view text, const std::string& shown) {

@@ -48,6 +48,15 @@ TEST_F(FiringTable, GivesOneRowInTheOrderOfTheFile) {
   EXPECT_NEAR(ElevationInDegrees(pattern, 1), 7.25, kFloatAngle_deg);
 }
 
+TEST_F(FiringTable, MayBeginWithAByteOrderMark) {
+  EXPECT_EQ(
+      BuildScanPattern(Write(std::string("\xEF\xBB\xBF") + kHeader + "10,+5,0.0")).num_firings(),
+      1U);
+  std::string utf16 = "\xFF\xFE";
+  for (const char letter : std::string(kHeader) + "10,5,0") utf16 += {letter, '\0'};
+  EXPECT_EQ(BuildScanPattern(Write(utf16)).num_firings(), 1U);
+}
+
 TEST_F(FiringTable, HasARowForEachRingAndAColumnForEachOfItsFirings) {
   const ScanPattern pattern = BuildScanPattern(Write(
       std::string(kRingHeader) + "0,2,0,1\n0,-3,1,0\n-1,-3,2,0\n-1,2,3,1\n-2,-3,4,0\n-2,2,5,1"));

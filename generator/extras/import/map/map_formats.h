@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
+#include "core/base/text_number.h"
 #include "core/scenario/json_text.h"
 #include "generator/extras/import/map/rail_map.h"
 
@@ -45,7 +46,7 @@ namespace railcast {
 
 /// The number that a text is; absent if it is anything else, or not finite.
 [[nodiscard]] inline std::optional<double> NumberIn(std::string_view text) {
-  const std::optional<double> value = ParseNumber<double>(text);
+  const std::optional<double> value = ParseTextNumber<double>(text);
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 

@@ -13,6 +13,7 @@
 #include "core/base/median.h"
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
+#include "core/base/text_number.h"
 #include "core/base/units.h"
 #include "core/io/openlabel.h"
 #include "core/io/recording/recording_kinds.h"
@@ -65,7 +66,7 @@ Transform ReadKittiPose(const std::string& line, const std::string& place) {
   const std::vector<std::string_view> words = Words(line);
   Eigen::Matrix<double, 3, 4, Eigen::RowMajor> rows = Eigen::Matrix<double, 3, 4>::Zero();
   for (std::size_t i = 0; i < words.size() && i < kNumbers; ++i) {
-    const auto number = ParseNumber<double>(words[i]);
+    const auto number = ParseTextNumber<double>(words[i]);
     rows.data()[i] = number.value_or(std::nan(""));
   }
   const Eigen::Matrix3d axes = rows.leftCols<3>();
@@ -233,7 +234,7 @@ void ReadTumLine(const std::vector<std::string_view>& words,
                  PoseFile& poses) {
   std::vector<double> numbers;
   for (const std::string_view word : words) {
-    if (const auto number = ParseSignedNumber<double>(word)) numbers.push_back(*number);
+    if (const auto number = ParseTextNumber<double>(word)) numbers.push_back(*number);
   }
   if (words.size() != kTumNumbers || numbers.size() != kTumNumbers) {
     throw InputError(place + ": must be the 8 numbers of a time and a pose, as in TUM's format");
@@ -360,7 +361,7 @@ PoseFile ReadCsv(const fs::path& file) {
     if (line->empty() && rest.find_first_not_of("\r\n") == std::string_view::npos) break;
     const std::string place = PlaceInFile(file, number);
     const std::string_view word = line->substr(0, line->find(','));
-    const auto stamp_ns = ParseNumber<std::int64_t>(word);
+    const auto stamp_ns = ParseTextNumber<std::int64_t>(word);
     constexpr std::int64_t kMost_ns = kMost_s * kNsPerS;
     if (!stamp_ns || *stamp_ns < -kMost_ns || *stamp_ns > kMost_ns) {
       throw InputError(place + ": stamp_ns: must be a whole number of at most 4.5e18 (got " +
@@ -402,7 +403,7 @@ KittiPoses ReadKittiPoses(const fs::path& source, std::size_t num_frames) {
   std::size_t number = 1;
   for (const std::string& line : KittiLinesIn(times, num_frames)) {
     const std::vector<std::string_view> words = Words(line);
-    const auto time_s = words.size() == 1 ? ParseNumber<double>(words[0]) : std::nullopt;
+    const auto time_s = words.size() == 1 ? ParseTextNumber<double>(words[0]) : std::nullopt;
     constexpr double kMost_s = 1e9;
     if (!time_s || !(std::abs(*time_s) <= kMost_s)) {
       throw InputError(PlaceInFile(times, number) + ": must be a time in seconds");

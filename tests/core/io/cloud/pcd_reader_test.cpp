@@ -190,6 +190,29 @@ TEST(ParsePcdFile, TakesZerosBehindThePoints) {
   }
 }
 
+TEST(ParsePcdFile, LeavesOutAFieldOfWhichAWordIsNoValue) {
+  const std::string ascii = Example(PcdEncoding::kAscii);
+  const Cloud cloud =
+      ParsePcdFile("a.pcd", Replaced(ascii, "nan nan nan 0", "nan nan nan -1")).cloud;
+  EXPECT_EQ(cloud.Find("label"), nullptr);
+  EXPECT_EQ(cloud.remarks, (std::vector<Remark>{{RemarkKind::kFieldsLeftOut, "a.pcd", 1,
+                                                 "label: no value of its type (got -1)"}}));
+}
+
+TEST(ParsePcdFile, ReadsNumbersAsOtherProgramsWriteThem) {
+  const std::string ascii = Example(PcdEncoding::kAscii);
+  for (const char* const words : {"1.#QNAN -1.#IND nanq 0.000000", "1.#INF00 -nan(ind) NaN 0e0",
+                                  "nan(0x7fffff) inf IND +0.", "-Infinity 1e400 1,#QNAN 0"}) {
+    const Cloud cloud = ParsePcdFile("a.pcd", Replaced(ascii, "nan nan nan 0", words)).cloud;
+    EXPECT_TRUE(cloud.remarks.empty()) << words;
+    std::size_t num_finite = 0;
+    VisitField(cloud, *cloud.Find("x"), [&](std::size_t, auto value) {
+      num_finite += std::isfinite(static_cast<double>(value)) ? 1 : 0;
+    });
+    EXPECT_EQ(num_finite, 5U) << words;
+  }
+}
+
 TEST(ParsePcdFile, NamesTheFaultOfDamagedPoints) {
   const std::string binary = Example(PcdEncoding::kBinary);
   EXPECT_EQ(Message(binary.substr(0, binary.size() - 1)),
@@ -204,8 +227,8 @@ TEST(ParsePcdFile, NamesTheFaultOfDamagedPoints) {
             "a.pcd: a point has fewer values than FIELDS asks for");
   EXPECT_EQ(Message(Replaced(ascii, "nan nan nan 0", "nan nan nan 0 0")),
             "a.pcd: a point has more values than FIELDS asks for");
-  EXPECT_EQ(Message(Replaced(ascii, "nan nan nan 0", "nan nan nan -1")),
-            "a.pcd: label: no value of its type (got -1)");
+  EXPECT_EQ(Message(Replaced(ascii, "nan nan nan 0", "nan nan no 0")),
+            "a.pcd: z: no value of its type (got no)");
   const std::string packed = Example(PcdEncoding::kBinaryCompressed);
   EXPECT_EQ(Message(packed.substr(0, packed.size() - 1)).substr(0, 12), "a.pcd: DATA:");
   EXPECT_EQ(Message(""), "a.pcd: is no PCD file: its header has no DATA line");

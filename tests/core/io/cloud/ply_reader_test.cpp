@@ -149,9 +149,9 @@ TEST(ReadPly, NamesThePointWhoseTextIsDamaged) {
       "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
   WriteFileWhole(file, header + "1.5 2\n-3e2 255\n3 0 1 0\n");
   EXPECT_EQ(ReadPly(file).data.size(), 10U);
-  WriteFileWhole(file, header + "1.5 2\n-3e2 256\n3 0 1 0\n");
+  WriteFileWhole(file, header + "1.5 2\n-3e2x 255\n3 0 1 0\n");
   EXPECT_EQ(MessageOf([&] { (void)ReadPly(file); }),
-            file.string() + ": point 1: label: no value of its type (got 256)");
+            file.string() + ": point 1: x: no value of its type (got -3e2x)");
   WriteFileWhole(file, header + "1.5 2\n-300000\n");
   EXPECT_EQ(MessageOf([&] { (void)ReadPly(file); }),
             file.string() + ": point 1: must have 2 values (got 1)");

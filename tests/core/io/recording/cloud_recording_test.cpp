@@ -382,18 +382,29 @@ TEST(CloudRecording, ReadsAKittiSequence) {
   EXPECT_EQ(found, labels);
 }
 
+TEST(CloudRecording, LeavesOutFieldsWhoseValuesCannotBe) {
+  const TemporaryDirectory folder;
+  const auto remark_of = [&](const std::string& field, const char* type, const std::string& value) {
+    const auto file = folder.path() / "a.pcd";
+    WriteFileWhole(file, AsciiPcd("x y z " + field, "4 4 4 4", std::string("F F F ") + type,
+                                  {"1 2 3 " + value, "1 2 4 0"}));
+    const RecordedFrame frame = MakeCloudFrame(ReadCloud(file), "a.pcd");
+    EXPECT_EQ(frame.Has(field), frame.is_grid && field == "ring") << field;
+    return frame.remarks.size() == 1 ? frame.remarks[0].detail : "";
+  };
+  const std::string rule = "label: must be a whole number from 0 to 4294967295 (got ";
+  EXPECT_EQ(remark_of("label", "I", "-1"), rule + "-1)");
+  EXPECT_EQ(remark_of("label", "F", "0.5"), rule + "0.5)");
+  EXPECT_EQ(remark_of("label", "F", "nan"), rule + "nan)");
+  EXPECT_EQ(remark_of("label", "U", "wagon"), "label: no value of its type (got wagon)");
+  EXPECT_EQ(remark_of("outcome", "U", "11"),
+            "outcome: must be a whole number from 0 to 10 (got 11)");
+  EXPECT_EQ(remark_of("ring", "I", "-1"), "ring: must be a whole number from 0 to 65535 (got -1)");
+}
+
 TEST(CloudRecording, NamesWhatIsWrongWithAFile) {
   EXPECT_EQ(MessageOfText("a.pcd", AsciiPcd("x y q", "4 4 4", "F F F", {"1 2 3"})),
             "has no field z");
-  EXPECT_EQ(MessageOfText("a.pcd", AsciiPcd("x y z label", "4 4 4 4", "F F F I", {"1 2 3 -1"})),
-            "label: must be a whole number from 0 to 4294967295 (got -1)");
-  EXPECT_EQ(
-      MessageOfText("a.pcd", AsciiPcd("x y z scalar_label", "4 4 4 4", "F F F F", {"1 2 3 0.5"})),
-      "scalar_label: must be a whole number from 0 to 4294967295 (got 0.5)");
-  EXPECT_EQ(MessageOfText("a.pcd", AsciiPcd("x y z label", "4 4 4 4", "F F F F", {"1 2 3 nan"})),
-            "label: must be a whole number from 0 to 4294967295 (got nan)");
-  EXPECT_EQ(MessageOfText("a.pcd", AsciiPcd("x y z outcome", "4 4 4 1", "F F F U", {"1 2 3 11"})),
-            "outcome: must be a whole number from 0 to 10 (got 11)");
   const std::vector<std::string> twice = {"1 2 3 0 5", "1 2 4 1 5", "1 2 5 0 5"};
   EXPECT_EQ(MessageOfText("a.pcd", AsciiPcd("x y z ring column", "4 4 4 2 4", "F F F U U", twice)),
             "point 2: must be the only one of its ring, column and return_index (got 0, 5, 0)");
