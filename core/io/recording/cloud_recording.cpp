@@ -174,11 +174,19 @@ std::unique_ptr<Recording> OpenCloudsIn(const std::filesystem::path& source) {
   const auto [directory, columns] = KittiSourceOf(source);
   const bool is_received = columns.empty() && exists(directory / kReceivedFile);
   if (is_received) return std::make_unique<ReceivedRecording>(directory);
-  auto files = CloudsOfDirectory(directory);
+  auto [files, others] = CloudsOfDirectory(directory);
   if (files.empty()) return nullptr;
   const bool is_kitti = IsKittiFile(files.front());
-  return OpenClouds(source, is_kitti ? "KITTI sequence" : "directory of point clouds",
-                    std::move(files));
+  auto recording = OpenClouds(source, is_kitti ? "KITTI sequence" : "directory of point clouds",
+                              std::move(files));
+  if (!others.empty()) {
+    recording->info().remarks->Add(
+        {.kind = RemarkKind::kFilesLeftOut,
+         .place = ShownPath(others.front().parent_path()),
+         .number = others.size(),
+         .detail = ShownPath(others.front().filename()) + " is none of the series"});
+  }
+  return recording;
 }
 
 }  // namespace railcast

@@ -113,8 +113,8 @@ class RemarkingRecording : public Recording {
 /// Opens clouds of KITTI's layout with other numbers a point.
 std::unique_ptr<Recording> OpenColumns(const std::filesystem::path& source,
                                        const std::filesystem::path& clouds) {
-  if (!is_directory(clouds)) return OpenClouds(source, "point cloud file", {clouds});
   if (auto recording = OpenCloudsIn(source)) return recording;
+  if (!is_directory(clouds)) return OpenClouds(source, "point cloud file", {clouds});
   throw InputError(ShownPath(clouds) + ": must hold .bin files for their columns to be chosen");
 }
 
@@ -125,6 +125,7 @@ std::unique_ptr<Recording> OpenAny(const std::filesystem::path& source) {
   if (!exists(status)) {
     const auto [clouds, columns] = KittiSourceOf(source);
     if (!columns.empty()) return OpenColumns(source, clouds);
+    if (auto series = OpenCloudsIn(source)) return series;
     if (auto found = OpenAsKind(&RecordingKind::open_part, source)) return found;
     throw FileError(source, error ? error.value() : ENOENT);
   }

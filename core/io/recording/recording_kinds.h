@@ -19,11 +19,28 @@ inline constexpr std::string_view kTopicMark = ":/";
 /// Whether it is one of KITTI's layout.
 [[nodiscard]] bool IsKittiFile(const std::filesystem::path& file);
 
-/// Returns the cloud files in a directory, but for those whose names begin with a point, in the
-/// order of their names: where all have one decimal number in the same place, as 0.05.pcd, by these
-/// numbers; else naturally, so that 9.pcd comes before 10.pcd.
-[[nodiscard]] std::vector<std::filesystem::path> CloudFilesIn(
-    const std::filesystem::path& directory);
+/// The cloud files of a directory that are the frames of one recording, in their order.
+struct CloudSeries {
+  std::vector<std::filesystem::path> files;
+  std::vector<std::filesystem::path> others;  ///< Copies, and what is of no series: no frames.
+};
+
+/// Sorts files of one directory into a series: their names differ in a running number or time,
+/// which are compared by value, whether decimal, signed or of ISO 8601. Where most names have none,
+/// all files are taken in natural order. Series one after the other, as of several drives, are one.
+/// @param label The series that is wanted, as "front_#"; empty: the only one.
+/// @throws InputError with the list if there are several, as of several sensors.
+[[nodiscard]] CloudSeries SeriesOfClouds(std::vector<std::filesystem::path> files,
+                                         const std::string& label);
+
+/// Sorts paths of one folder by the natural order of their names, so that 9.pcd comes before
+/// 10.pcd.
+void SortNaturally(std::vector<std::filesystem::path>& paths);
+
+/// Returns the cloud files in a directory, but for those whose names begin with a point, as
+/// SeriesOfClouds() sorts them. A directory that does not exist, as "drive/front_#", may stand for
+/// a series of the one that it is in.
+[[nodiscard]] CloudSeries CloudFilesIn(const std::filesystem::path& directory);
 
 /// Returns the sequences in a directory of KITTI's layout, `sequences/00`, `01`, ..., that hold
 /// clouds in `velodyne`, in natural order. None if it has another layout.
@@ -32,11 +49,11 @@ inline constexpr std::string_view kTopicMark = ":/";
 
 /// Returns the clouds of a directory that is none of railcast's: those side by side in it, in its
 /// folder `frames` or `velodyne`, or those of all sequences of KITTI's layout.
-[[nodiscard]] std::vector<std::filesystem::path> CloudsOfDirectory(
-    const std::filesystem::path& directory);
+[[nodiscard]] CloudSeries CloudsOfDirectory(const std::filesystem::path& directory);
 
-/// The stamps that files have by their names, where all of these are decimal numbers of seconds, as
-/// 1700000000.05.pcd; else none.
+/// The stamps that files have by their names, where all of these hold a date and time, are decimal
+/// numbers of seconds, as 1700000000.05.pcd, or hold a time of this century in seconds, ms, us or
+/// ns since 1970; else none.
 [[nodiscard]] std::vector<std::int64_t> StampsOfNames(
     const std::vector<std::filesystem::path>& files);
 

@@ -13,8 +13,8 @@ namespace railcast {
 namespace {
 
 bool HoldsKittiClouds(const std::filesystem::path& source) {
-  if (!is_directory(source)) return IsKittiFile(source);
-  const auto clouds = CloudsOfDirectory(source);
+  if (is_regular_file(source)) return IsKittiFile(source);
+  const auto clouds = CloudsOfDirectory(source).files;
   return !clouds.empty() && IsKittiFile(clouds.front());
 }
 

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 std::vector<fs::path> CloudsOf(const fs::path& clouds) {
   if (IsCloudFile(clouds)) return {clouds};
   if (!fs::is_directory(clouds)) return {};
-  if (!fs::exists(clouds / kReceivedFile)) return CloudsOfDirectory(clouds);
+  if (!fs::exists(clouds / kReceivedFile)) return CloudsOfDirectory(clouds).files;
   std::vector<fs::path> files;
   LineReader lines(clouds / kReceivedFile);
   (void)lines.Need();

@@ -89,7 +89,9 @@ std::optional<SourceFiles> FindSourceFiles(const fs::path& opened) {
   if (fs::exists(recording / kReceivedFile)) {
     ReadReceived(source);
   } else {
-    for (const fs::path& cloud : CloudsOfDirectory(source.directory)) AddSourceFrame(cloud, source);
+    for (const fs::path& cloud : CloudsOfDirectory(source.directory).files) {
+      AddSourceFrame(cloud, source);
+    }
   }
   if (source.frames.empty()) return std::nullopt;
   FindOthers(source);

@@ -149,7 +149,7 @@ std::vector<PosedFrame> ReadLinesOfSequence(const fs::path& directory) {
 std::vector<PosedFrame> FramesOfFiles(const RecordingInfo& info) {
   std::vector<PosedFrame> frames(info.num_frames.value_or(0));
   const fs::path clouds = KittiSourceOf(info.source).clouds;
-  const auto stamps_ns = StampsOfNames(CloudsOfDirectory(clouds));
+  const auto stamps_ns = StampsOfNames(CloudsOfDirectory(clouds).files);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     frames[i].name = ShownPath(info.source) + ": frame " + NumberText(i);
     if (!stamps_ns.empty()) frames[i].stamp_ns = stamps_ns.at(i);

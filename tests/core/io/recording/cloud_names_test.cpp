@@ -22,7 +22,7 @@ std::vector<std::string> FramesOf(const std::vector<std::string>& names) {
   const TemporaryDirectory folder;
   for (const std::string& name : names) WriteFileWhole(folder.path() / name, "");
   std::vector<std::string> frames;
-  for (const auto& file : CloudFilesIn(folder.path())) frames.push_back(file.filename());
+  for (const auto& file : CloudFilesIn(folder.path()).files) frames.push_back(file.filename());
   return frames;
 }
 
@@ -37,6 +37,76 @@ TEST(CloudNames, AreComparedAsDecimalNumbersWhereAllAreSuch) {
   // The tenth of the first.
   EXPECT_THAT(FramesOf({"1.1.pcd", "1.2.pcd", "1.10.pcd"}),
               ElementsAre("1.1.pcd", "1.2.pcd", "1.10.pcd"));
+}
+
+TEST(CloudNames, AreComparedAsTheTimesThatTheyHold) {
+  const std::string day = "2026-11-30T";
+  EXPECT_THAT(FramesOf({day + "10-00-00.pcd", day + "09-59-59.9.pcd", day + "10-00-00.100000.pcd",
+                        day + "09-59-59.pcd"}),
+              ElementsAre(day + "09-59-59.pcd", day + "09-59-59.9.pcd", day + "10-00-00.pcd",
+                          day + "10-00-00.100000.pcd"));
+  EXPECT_THAT(FramesOf({"c_20261130_100000_500000.ply", "c_20261130_100000.ply",
+                        "c_20261130_095959_900000.ply"}),
+              ElementsAre("c_20261130_095959_900000.ply", "c_20261130_100000.ply",
+                          "c_20261130_100000_500000.ply"));
+  // A number behind a date is none of its time if it goes beyond 59 s.
+  EXPECT_THAT(FramesOf({"20261130_000060.pcd", "20261130_000059.pcd", "20261130_000100.pcd"}),
+              ElementsAre("20261130_000059.pcd", "20261130_000060.pcd", "20261130_000100.pcd"));
+}
+
+TEST(CloudNames, MayHaveSigns) {
+  EXPECT_THAT(FramesOf({"0.0.pcd", "-0.2.pcd", "0.1.pcd", "-0.1.pcd", "-10.0.pcd"}),
+              ElementsAre("-10.0.pcd", "-0.2.pcd", "-0.1.pcd", "0.0.pcd", "0.1.pcd"));
+  EXPECT_THAT(FramesOf({"t_-1.pcd", "t_2.pcd", "t_-3.pcd"}),
+              ElementsAre("t_-3.pcd", "t_-1.pcd", "t_2.pcd"));
+  EXPECT_THAT(FramesOf({"frame-1.pcd", "frame-10.pcd", "frame-2.pcd"}),
+              ElementsAre("frame-1.pcd", "frame-2.pcd", "frame-10.pcd"));
+}
+
+/// The names of the files that are left out of a folder.
+std::vector<std::string> LeftOutOf(const std::vector<std::string>& names) {
+  std::vector<std::filesystem::path> files(names.begin(), names.end());
+  std::vector<std::string> others;
+  for (const auto& file : SeriesOfClouds(files, "").others) others.push_back(file);
+  return others;
+}
+
+TEST(CloudNames, OfCopiesAndStrangersAreLeftOut) {
+  EXPECT_THAT(LeftOutOf({"000000.pcd", "000001.pcd", "000001 (1).pcd", "000001 - Copy.pcd",
+                         "000001 - \u526f\u672c.pcd", "000001_copy2.pcd", "Kopie von 000000.pcd"}),
+              testing::UnorderedElementsAre("000001 (1).pcd", "000001 - Copy.pcd",
+                                            "000001 - \u526f\u672c.pcd", "000001_copy2.pcd",
+                                            "Kopie von 000000.pcd"));
+  EXPECT_THAT(LeftOutOf({"a_1.ply", "a_2.ply", "a_3.ply", "map.ply"}), ElementsAre("map.ply"));
+  // A file manager numbers them so.
+  EXPECT_THAT(LeftOutOf({"scan (1).ply", "scan (2).ply", "scan (10).ply"}), ElementsAre());
+  EXPECT_THAT(LeftOutOf({"street.ply", "yard.ply", "bridge 2.ply"}), ElementsAre());
+}
+
+TEST(CloudNames, OfSeveralSensorsAreRefused) {
+  const auto fault = [](const std::vector<std::string>& names) {
+    return MessageOf([&] { (void)LeftOutOf(names); });
+  };
+  EXPECT_THAT(fault({"d/front_1.pcd", "d/front_2.pcd", "d/rear_1.pcd", "d/rear_2.pcd"}),
+              "d: must hold one series of clouds (got front_# of 2 files, rear_# of 2 files); "
+              "d/front_# opens the first");
+  EXPECT_THAT(fault({"d/lidar1_0.1.bin", "d/lidar2_0.1.bin", "d/lidar1_0.2.bin", "d/lidar2_0.2.bin",
+                     "d/lidar1_0.3.bin"}),
+              testing::HasSubstr("(got lidar1_# of 3 files, lidar2_# of 2 files)"));
+  EXPECT_THAT(fault({"d/01_000.bin", "d/01_001.bin", "d/02_000.bin", "d/02_001.bin"}),
+              testing::HasSubstr("(got 01_# of 2 files, 02_# of 2 files)"));
+  // Seconds and tenths, and one drive after the other.
+  EXPECT_EQ(fault({"d/17_8.pcd", "d/17_9.pcd", "d/18_0.pcd", "d/18_1.pcd"}), "no error");
+  EXPECT_EQ(fault({"d/a_1.pcd", "d/a_2.pcd", "d/b_3.pcd", "d/b_4.pcd"}), "no error");
+}
+
+TEST(CloudNames, OfOneSeriesMayBeChosen) {
+  const TemporaryDirectory folder;
+  for (const char* const name : {"front_1.ply", "front_2.ply", "rear_1.ply", "rear_2.ply"}) {
+    WriteFileWhole(folder.path() / name, "");
+  }
+  EXPECT_THAT(CloudFilesIn(folder.path() / "rear_#").files,
+              ElementsAre(folder.path() / "rear_1.ply", folder.path() / "rear_2.ply"));
 }
 
 TEST(CloudNames, MayEndInAnyCaseButNotBeginWithAPoint) {
@@ -57,6 +127,29 @@ TEST(CloudNames, AreStampsWhereAllAreSeconds) {
               ElementsAre(1'700'000'000'050'000'000, 1'700'000'000'150'000'001));
   EXPECT_THAT(StampsOfNames(Paths{"1.pcd", "2.pcd"}), ElementsAre());
   EXPECT_THAT(StampsOfNames(Paths{"a1.5.pcd", "a2.5.pcd"}), ElementsAre());
+}
+
+TEST(CloudNames, AreStampsWhereAllHoldATimeOfThisCentury) {
+  using Paths = std::vector<std::filesystem::path>;
+  EXPECT_THAT(StampsOfNames(Paths{"n015__LIDAR_TOP__1532402927647951.pcd.bin",
+                                  "n015__LIDAR_TOP__1532402928147847.pcd.bin"}),
+              ElementsAre(1'532'402'927'647'951'000, 1'532'402'928'147'847'000));
+  EXPECT_THAT(StampsOfNames(Paths{"1532402927647.bin", "1532402927747.bin"}),
+              ElementsAre(1'532'402'927'647'000'000, 1'532'402'927'747'000'000));
+  EXPECT_THAT(StampsOfNames(Paths{"1532402927647951123.bin", "1532402927747951123.bin"}),
+              ElementsAre(1'532'402'927'647'951'123, 1'532'402'927'747'951'123));
+  EXPECT_THAT(StampsOfNames(Paths{"1556089560_000000000.pcd", "1556089560_100000000.pcd"}),
+              ElementsAre(1'556'089'560'000'000'000, 1'556'089'560'100'000'000));
+  EXPECT_THAT(
+      StampsOfNames(Paths{"2026-11-30 10:00:00+01:00.pcd", "2026-11-30 10:00:00.1+01:00.pcd"}),
+      ElementsAre(1'796'029'200'000'000'000, 1'796'029'200'100'000'000));
+  EXPECT_THAT(StampsOfNames(Paths{"-0.1.pcd", "0.0.pcd"}), ElementsAre(-100'000'000, 0));
+  // A time of the log, and numbers of frames.
+  EXPECT_THAT(StampsOfNames(Paths{"2026-11-30-10-00-00_1.pcd", "2026-11-30-10-00-00_2.pcd"}),
+              ElementsAre());
+  EXPECT_THAT(
+      StampsOfNames(Paths{"2026-11-30-10-00-00_000001.pcd", "2026-11-30-10-00-00_000002.pcd"}),
+      ElementsAre());
 }
 
 TEST(CloudNames, MayHaveNanosecondsWithoutZerosInFront) {
@@ -85,6 +178,12 @@ TEST(CloudNames, GiveFramesTheirStamps) {
   ASSERT_EQ(frames.size(), 2U);
   EXPECT_EQ(frames[0].frame.stamp_ns, 1'250'000'000);
   EXPECT_EQ(frames[1].frame.stamp_ns, 1'500'000'000);
+  std::filesystem::copy(folder.path() / "1.5.ply", folder.path() / "1.5 (1).ply");
+  const auto recording = OpenRecording(folder.path());
+  EXPECT_EQ(recording->info().num_frames, 2U);
+  EXPECT_EQ(recording->info().remarks->List(),
+            (std::vector<Remark>{{RemarkKind::kFilesLeftOut, folder.path().string(), 1,
+                                  "1.5 (1).ply is none of the series"}}));
 }
 
 }  // namespace
