@@ -120,7 +120,11 @@ std::uint32_t ReturnsOf(const Cloud& cloud, const std::string& name) {
 std::vector<std::uint32_t> LoadRings(const Cloud& cloud, const std::string& name) {
   const CloudField* const ring = FindFieldOf(cloud, "ring");
   if (ring == nullptr) return {};
-  return LoadIndices(cloud, *ring, std::numeric_limits<std::uint16_t>::max(), name);
+  try {
+    return LoadIndices(cloud, *ring, std::numeric_limits<std::uint16_t>::max(), name);
+  } catch (const InputError&) {
+    return {};  // FillFrame() says why.
+  }
 }
 
 SlotPlan PlanOfCloud(const Cloud& cloud, const std::string& name) {
@@ -179,6 +183,7 @@ RecordedFrame MakeCloudFrame(const Cloud& cloud, const std::string& name) {
   const std::vector<std::uint32_t>& times_ns = recorded.frame.time_ns;
   if (!times_ns.empty()) recorded.frame.duration_ns = *std::ranges::max_element(times_ns);
   if (!recorded.Has("column")) LeaveOutUnlikelyTimes(recorded);  // Ours may begin all at once.
+  CheckUnit(recorded);
   return recorded;
 }
 

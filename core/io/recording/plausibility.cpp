@@ -5,12 +5,18 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.h"
 #include "core/base/median.h"
 #include "core/base/text.h"
+#include "core/base/units.h"
 #include "core/io/recording/cloud_fields.h"
+#include "core/io/sensor_tables.h"
 
 namespace railcast {
 namespace {
@@ -65,6 +71,127 @@ bool AreFarTogether(const Positions& positions) {
   return AreTogether(positions, middle_m, far_m > kGrid_m ? kGrid_m : kLocal_m);
 }
 
+/// Whether an axis has the azimuths of a whole turn, from -180 or from 0 deg on: all of its
+/// twelfths have values, which reach its ends, and there is none beyond.
+bool IsAzimuth(const std::vector<double>& values, double turn) {
+  constexpr std::size_t kNumParts = 12;
+  const auto [least, most] = std::ranges::minmax(values);
+  const double begin = least < 0.0 ? -0.5 * turn : 0.0;
+  constexpr double kRounding = 1e-4;
+  constexpr double kWidestStep = 0.02;  // Of a turn.
+  if (least < begin - kRounding * turn || most > begin + (1.0 + kRounding) * turn) return false;
+  if (most - least < (1.0 - kWidestStep) * turn) return false;
+  std::array<std::size_t, kNumParts> num{};
+  for (const double value : values) {
+    const double part = (value - begin) / turn * static_cast<double>(kNumParts);
+    ++num.at(static_cast<std::size_t>(std::clamp(part, 0.0, kNumParts - 1.0)));
+  }
+  return std::ranges::all_of(num, [](std::size_t of_part) { return of_part > 0; });
+}
+
+/// Whether an axis has elevations of rings: few values, each of several points.
+bool IsElevation(std::vector<double> values, double turn) {
+  constexpr std::size_t kMostRings = 256;
+  constexpr std::size_t kLeastPoints = 4;  // Of a ring, on average.
+  const bool are_level =
+      std::ranges::all_of(values, [&](double value) { return std::abs(value) <= 0.25 * turn; });
+  if (!are_level) return false;
+  const std::size_t num = values.size();
+  std::ranges::sort(values);
+  values.erase(std::ranges::unique(values).begin(), values.end());
+  return values.size() > 1 && values.size() <= kMostRings && num >= kLeastPoints * values.size();
+}
+
+/// The names of the axes that hold a range, an azimuth and an elevation; empty if they are those of
+/// a place.
+std::string PolarAxes(const Positions& positions) {
+  constexpr std::size_t kSurePoints = 100;
+  if (positions.size() < kSurePoints) return {};
+  std::array<std::vector<double>, 3> axes;
+  for (const Vector3& position : positions) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      axes.at(axis).push_back(position[static_cast<Eigen::Index>(axis)]);
+    }
+  }
+  for (const double turn : {360.0, 2.0 * std::numbers::pi}) {
+    std::array<std::size_t, 3> order = {0, 1, 2};
+    do {
+      const auto& [range, azimuth, elevation] = order;
+      if (std::ranges::min(axes.at(range)) < 0.0 || !IsAzimuth(axes.at(azimuth), turn)) continue;
+      if (!IsElevation(axes.at(elevation), turn) || IsElevation(axes.at(range), turn)) continue;
+      const auto name = [](std::size_t axis) { return std::string(1, "xyz"[axis]); };
+      return name(range) + " is like a range, " + name(azimuth) + " like an azimuth and " +
+             name(elevation) + " like an elevation in " + (turn == 360.0 ? "degrees" : "radians");
+    } while (std::ranges::next_permutation(order).found);
+  }
+  return {};
+}
+
+/// A spinning sensor whose channels the program holds.
+struct KnownSensor {
+  std::vector<double> elevations_deg;
+  double range_max_m{};
+};
+
+const std::vector<KnownSensor>& KnownSensors() {
+  static const std::vector<KnownSensor> sensors = [] {
+    std::vector<KnownSensor> all;
+    for (const SensorTableName& name : SensorTableNames()) {
+      KnownSensor sensor;
+      for (const ChannelSpec& channel : SensorTable(name.file).channels) {
+        sensor.elevations_deg.push_back(channel.elevation_deg);
+      }
+      std::ranges::sort(sensor.elevations_deg);
+      const auto file = nlohmann::json::parse(*SensorFileOf(name.product));
+      sensor.range_max_m = file.value("range_max_m", LidarSpec{}.range_max_m);
+      all.push_back(std::move(sensor));
+    }
+    return all;
+  }();
+  return sensors;
+}
+
+/// The mean elevations of the rows of a grid, of points that are not so near that it matters where
+/// their beams leave, by height.
+std::vector<double> ElevationsOfRows_deg(const Frame& frame) {
+  constexpr double kNear_m = 3.0;
+  std::vector<double> rows_deg;
+  const std::size_t num_slots = std::size_t{frame.columns} * frame.returns;
+  for (std::size_t row = 0; row < frame.rows; ++row) {
+    double sum_rad = 0.0;
+    std::size_t num = 0;
+    for (std::size_t i = row * num_slots; i < (row + 1) * num_slots; ++i) {
+      const double level_m = std::hypot(double{frame.x[i]}, double{frame.y[i]});
+      if (!(level_m > kNear_m)) continue;
+      sum_rad += std::atan2(double{frame.z[i]}, level_m);
+      ++num;
+    }
+    if (num > 0) rows_deg.push_back(DegFromRad(sum_rad / static_cast<double>(num)));
+  }
+  std::ranges::sort(rows_deg);
+  return rows_deg;
+}
+
+/// Whether the rows are channels of a sensor, and at least four in five of these.
+bool IsOf(const KnownSensor& sensor, const std::vector<double>& rows_deg) {
+  constexpr double kSure_deg = 0.1;
+  constexpr double kFewest = 0.8;
+  const auto& channels_deg = sensor.elevations_deg;
+  if (rows_deg.size() > channels_deg.size() ||
+      static_cast<double>(rows_deg.size()) < kFewest * static_cast<double>(channels_deg.size())) {
+    return false;
+  }
+  double squares_deg2 = 0.0;
+  for (const double row_deg : rows_deg) {
+    double off_deg = std::numeric_limits<double>::infinity();
+    for (const double channel_deg : channels_deg) {
+      off_deg = std::min(off_deg, std::abs(row_deg - channel_deg));
+    }
+    squares_deg2 += off_deg * off_deg;
+  }
+  return squares_deg2 <= kSure_deg * kSure_deg * static_cast<double>(rows_deg.size());
+}
+
 }  // namespace
 
 std::vector<Remark> CheckPositions(const Cloud& cloud, const std::string& name) {
@@ -78,6 +205,8 @@ std::vector<Remark> CheckPositions(const Cloud& cloud, const std::string& name) 
                      ": must be floating point, for whole numbers do not state their unit (got " +
                      NumberText(8 * SizeOf(type)) + " bits)");
   }
+  const std::string polar = PolarAxes(positions);
+  if (!polar.empty()) throw InputError(name + ": x, y, z: must be places (got " + polar + ")");
   // No sensor has all of its returns so near, but a file of kilometres has, or one of a small
   // thing.
   constexpr double kNearest_m = 0.1;
@@ -200,6 +329,36 @@ std::optional<Remark> CheckRanges(const RecordedFrame& recorded,
   }
   return Remark{
       .kind = RemarkKind::kFarReturns, .place = recorded.name, .number = num_far, .detail = got};
+}
+
+void CheckUnit(RecordedFrame& recorded) {
+  constexpr double kMostLikely_m = 300.0;
+  constexpr double kLeastRange_m = 50.0;  // Of all sensors that are known.
+  constexpr std::size_t kSurePoints = 100;
+  std::vector<double> ranges_m;
+  for (const float range_m : recorded.frame.range_m) {
+    if (std::isfinite(range_m)) ranges_m.push_back(double{range_m});
+  }
+  const double median_m = MedianOf(ranges_m);
+  const bool is_near =
+      std::ranges::none_of(ranges_m, [](double range_m) { return range_m > kLeastRange_m; });
+  if (ranges_m.size() < kSurePoints || is_near || median_m > kFarPosition_m) return;
+  const auto rows_deg =
+      recorded.is_grid ? ElevationsOfRows_deg(recorded.frame) : std::vector<double>();
+  double range_max_m = 0.0;
+  for (const KnownSensor& sensor : KnownSensors()) {
+    if (!rows_deg.empty() && IsOf(sensor, rows_deg)) {
+      range_max_m = std::max(range_max_m, sensor.range_max_m);
+    }
+  }
+  if (range_max_m > 0.0) {
+    if (const auto far = CheckRanges(recorded, {}, range_max_m)) AddRemark(*far, recorded.remarks);
+  } else if (median_m > kMostLikely_m && recorded.origin_m.isZero()) {
+    AddRemark({.kind = RemarkKind::kUnitsAssumed,
+               .place = recorded.name,
+               .detail = "half of its ranges are beyond " + ShortText(median_m) + " m"},
+              recorded.remarks);
+  }
 }
 
 }  // namespace railcast

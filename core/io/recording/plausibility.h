@@ -14,6 +14,8 @@ namespace railcast {
 /// Whether the positions of a cloud can be metres: 99 % of the points are less than 10 km from 0,
 /// or all of them lie together farther away, as in a national grid. Points that are not finite, or
 /// 0, are none.
+/// Nor can they be polar: a range that is never below 0, an azimuth that fills a whole turn, in deg
+/// or rad, and an elevation of few values, in any order.
 /// @return Remarks of those few that are farther than 10 km away, and of a cloud of 100 points or
 ///   more that is within 0.1 m.
 /// @throws InputError "name: x, y, z: rule (got value)" if they cannot.
@@ -35,6 +37,12 @@ void LeaveOutUnlikelyTimes(RecordedFrame& recorded);
 [[nodiscard]] std::optional<Remark> CheckRanges(const RecordedFrame& recorded,
                                                 const RecordingInfo& info,
                                                 double range_max_m);
+
+/// CheckRanges() of a cloud whose rows are those of a spinning sensor that railcast knows, within
+/// 0.1 deg. Of other clouds a remark (RemarkKind::kUnitsAssumed) if the median of their ranges is
+/// beyond 300 m, where no sensor has half of its returns.
+/// @throws InputError as CheckRanges() does.
+void CheckUnit(RecordedFrame& recorded);
 
 /// Tells if more than 1 % of the points have a stored range more than 1 m from their distance to
 /// the origin, as when points were moved behind the sensor.

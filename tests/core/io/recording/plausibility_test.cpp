@@ -7,9 +7,11 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
+#include "core/base/units.h"
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/recording/cloud_fields.h"
 #include "core/io/recording/cloud_frame.h"
@@ -156,6 +158,75 @@ TEST(CheckRanges, TellsAnyNumberOfCapturesWhosePacketsStateTheUnit) {
   turn.beam_of = [](std::uint32_t, std::uint32_t) { return RecordedBeam{}; };
   ASSERT_TRUE(CheckRanges(turn, {}, 100.0).has_value());
   EXPECT_EQ(CheckRanges(turn, {}, 100.0)->number, 50U);
+}
+
+/// A turn of a VLP-16 or, with other elevations, of no known sensor in a room 9 m away, in a unit.
+Cloud VlpRoom(double metre, double step_deg = 2.0) {
+  constexpr std::uint32_t kColumns = 180;
+  constexpr std::uint32_t kRows = 16;
+  Cloud cloud;
+  for (const char* axis : {"x", "y", "z"}) cloud.AddField(axis, NumberType::kFloat);
+  cloud.width = kColumns * kRows;
+  cloud.height = 1;
+  for (std::uint32_t i = 0; i < cloud.width; ++i) {
+    const double azimuth_rad = RadFromDeg(2.0 * (i / kRows) + 0.3);
+    const double elevation_rad = RadFromDeg(step_deg * (i % kRows) - 15.0);
+    const double level_m = metre * 9.0;
+    const std::array<float, 3> point = {static_cast<float>(level_m * std::cos(azimuth_rad)),
+                                        static_cast<float>(level_m * std::sin(azimuth_rad)),
+                                        static_cast<float>(level_m * std::tan(elevation_rad))};
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(point.data());
+    cloud.data.insert(cloud.data.end(), bytes, bytes + sizeof point);
+  }
+  return cloud;
+}
+
+TEST(CheckUnit, HoldsRangesAgainstThoseOfTheSensorThatRingsShow) {
+  EXPECT_TRUE(MakeCloudFrame(VlpRoom(1.0), "a.pcd").remarks.empty());
+  for (const double unit : {12.0, 39.4, 100.0, 1000.0}) {
+    EXPECT_THAT(MessageOf([&] { (void)MakeCloudFrame(VlpRoom(unit), "a.pcd"); }),
+                testing::AllOf(testing::StartsWith("a.pcd: range_m: at most 1 % of the returns may "
+                                                   "be beyond the sensor's range_max_m of 100 (got "
+                                                   "100 %, the farthest "),
+                               testing::EndsWith(" m): another unit?")));
+  }
+}
+
+TEST(CheckUnit, TellsRangesThatNoSensorHas) {
+  EXPECT_TRUE(MakeCloudFrame(VlpRoom(30.0, 1.5), "a.pcd").remarks.empty());
+  for (const double unit : {100.0, 1000.0}) {
+    const auto remarks = MakeCloudFrame(VlpRoom(unit, 1.5), "a.pcd").remarks;
+    ASSERT_EQ(remarks.size(), 1U);
+    EXPECT_EQ(remarks[0].kind, RemarkKind::kUnitsAssumed);
+    EXPECT_THAT(remarks[0].detail, testing::StartsWith("half of its ranges are beyond 9"));
+  }
+}
+
+TEST(CheckPositions, AreNoneOfPolarNumbers) {
+  const double rad = std::numbers::pi / 180.0;
+  for (const double unit : {1.0, rad}) {
+    for (const double first_deg : {-180.0, 0.0}) {
+      for (const std::array<std::size_t, 3>& order :
+           {std::array<std::size_t, 3>{0, 1, 2}, {1, 2, 0}, {2, 0, 1}}) {
+        Cloud cloud = RoomOf(16 * 90, 1.0);
+        for (std::size_t i = 0; i < cloud.num_points(); ++i) {
+          const std::array<double, 3> polar = {
+              7.0 + std::sin(0.1 * static_cast<double>(i)),
+              unit * (first_deg + 4.0 * static_cast<double>(i / 16)),
+              unit * (2.0 * static_cast<double>(i % 16) - 15.0)};
+          std::array<double, 3> stored{};
+          for (std::size_t axis = 0; axis < 3; ++axis) stored.at(order.at(axis)) = polar.at(axis);
+          std::memcpy(cloud.data.data() + i * cloud.point_step, stored.data(), sizeof stored);
+        }
+        const std::string name = "xyz";
+        EXPECT_EQ(PositionFault(cloud), std::string("a.pcd: x, y, z: must be places (got ") +
+                                            name[order[0]] + " is like a range, " + name[order[1]] +
+                                            " like an azimuth and " + name[order[2]] +
+                                            " like an elevation in " +
+                                            (unit == 1.0 ? "degrees" : "radians") + ")");
+      }
+    }
+  }
 }
 
 using testing::ElementsAre;
