@@ -4,9 +4,11 @@
 #include <cmath>
 #include <iomanip>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <sstream>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "core/base/text.h"
@@ -125,6 +127,47 @@ VehicleWay FindVehicleWay(const VehicleSpec& vehicle, const TrackCourse& track) 
   return way;
 }
 
+/// The scan of a table, whose columns may be in other units than it says: how fast it fires, and
+/// how wide it looks.
+/// @return Lines with remarks if that is beyond what any sensor does.
+std::string TableText(const ScanPattern& pattern, std::uint32_t duration_ns) {
+  constexpr double kFastest_hz = 100e6;
+  constexpr double kNarrowest_deg = 2.0 * std::numbers::pi;  // A whole turn in rad.
+  const auto num_firings = static_cast<double>(pattern.num_firings());
+  // The turn but for the widest gap between azimuths.
+  std::vector<double> azimuths_deg;
+  double lowest_deg = 90.0;
+  double highest_deg = -90.0;
+  for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
+    const double x = pattern.direction_x[i];
+    const double y = pattern.direction_y[i];
+    azimuths_deg.push_back(DegFromRad(std::atan2(y, x)));
+    const double elevation_deg =
+        DegFromRad(std::atan2(double{pattern.direction_z[i]}, std::hypot(x, y)));
+    lowest_deg = std::min(lowest_deg, elevation_deg);
+    highest_deg = std::max(highest_deg, elevation_deg);
+  }
+  std::ranges::sort(azimuths_deg);
+  double gap_deg = azimuths_deg.front() + 360.0 - azimuths_deg.back();
+  for (std::size_t i = 1; i < azimuths_deg.size(); ++i) {
+    gap_deg = std::max(gap_deg, azimuths_deg[i] - azimuths_deg[i - 1]);
+  }
+  const double width_deg = 360.0 - gap_deg;
+  const double height_deg = highest_deg - lowest_deg;
+  const double rate_hz = duration_ns == 0 ? 0.0 : (num_firings - 1.0) / SecondsFromNs(duration_ns);
+  std::string text = ReportLine(
+      "", "a table: " + (rate_hz == 0.0 ? "all at once" : ShortText(rate_hz) + " firings/s") +
+              ", a field of view of " + ShortText(width_deg) + " x " + ShortText(height_deg) +
+              " degrees");
+  if (rate_hz > kFastest_hz) {
+    text += ReportLine("", "remark: no sensor fires so fast: is time_us in microseconds?");
+  }
+  if (num_firings > 1.0 && std::max(width_deg, height_deg) <= kNarrowest_deg) {
+    text += ReportLine("", "remark: no sensor looks so narrowly: are the angles in degrees?");
+  }
+  return text;
+}
+
 std::string SensorText(const LidarSpec& lidar, const ScanPattern& pattern) {
   const std::uint32_t duration_ns =
       *std::max_element(pattern.time_ns.begin(), pattern.time_ns.end());
@@ -141,6 +184,9 @@ std::string SensorText(const LidarSpec& lidar, const ScanPattern& pattern) {
          ReportLine("", NumberText(pattern.rate_hz) + " frames/s" + begin + ", each fired within " +
                             ShortText(SecondsFromNs(duration_ns)) + " s; at most " +
                             Rounded(num_firings * pattern.rate_hz, 0) + " points/s") +
+         (std::holds_alternative<FiringTableSpec>(lidar.scan.pattern)
+              ? TableText(pattern, duration_ns)
+              : "") +
          (pattern.repeats() ? "" : ReportLine("", "a figure that goes on from frame to frame"));
 }
 

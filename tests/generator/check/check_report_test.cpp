@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "railcast/scenario.h"
 #include "tests/support/simple_world.h"
 
@@ -27,6 +30,31 @@ TEST(CheckReport, StatesTheSensorsRates) {
   EXPECT_EQ(SensorText(lidar, FourFirings()),
             "sensor    odd: 4 firings a frame (1 rows x 4 columns), range 0.5 to 300 m\n"
             "          10 frames/s, each fired within 0.075 s; at most 40 points/s\n");
+}
+
+TEST(CheckReport, StatesTheScanOfATable) {
+  LidarSpec lidar;
+  lidar.scan.pattern = FiringTableSpec{};
+  const auto scan_of = [&](double width_deg, std::uint32_t step_ns) {
+    ScanPattern pattern = FourFirings();
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double azimuth_rad =
+          width_deg * std::numbers::pi / 180.0 * static_cast<double>(i) / 3.0;
+      pattern.direction_x[i] = static_cast<float>(std::cos(azimuth_rad));
+      pattern.direction_y[i] = static_cast<float>(std::sin(azimuth_rad));
+      pattern.direction_z[i] = 0.0F;
+      pattern.time_ns[i] = static_cast<std::uint32_t>(i) * step_ns;
+    }
+    const std::string text = SensorText(lidar, pattern);
+    return text.substr(text.find("a table"));
+  };
+  EXPECT_EQ(scan_of(30.0, 1000), "a table: 1e+06 firings/s, a field of view of 30 x 0 degrees\n");
+  EXPECT_EQ(scan_of(30.0, 1),
+            "a table: 1e+09 firings/s, a field of view of 30 x 0 degrees\n"
+            "          remark: no sensor fires so fast: is time_us in microseconds?\n");
+  EXPECT_EQ(scan_of(1.5, 0),
+            "a table: all at once, a field of view of 1.5 x 0 degrees\n"
+            "          remark: no sensor looks so narrowly: are the angles in degrees?\n");
 }
 
 TEST(CheckReport, SaysThatFramesDiffer) {
