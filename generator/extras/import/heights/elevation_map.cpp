@@ -17,6 +17,7 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
+#include "core/base/text_number.h"
 #include "generator/extras/import/map/gdal_errors.h"
 #include "generator/extras/import/map/rail_map.h"
 
@@ -37,6 +38,22 @@ OGRSpatialReference SystemOf(const std::string& definition) {
   }
   system.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   return system;
+}
+
+/// Checks that the heights of a system, if it has any, are metres above something.
+void CheckHeightsOf(const OGRSpatialReference& system, const std::string& place) {
+  const char* unit = nullptr;
+  const double unit_m = system.IsVertical() != 0 || system.IsCompound() != 0
+                            ? system.GetTargetLinearUnits("VERT_CS", &unit)
+                            : 1.0;
+  constexpr double kRounding = 1e-9;
+  if (std::abs(unit_m - 1.0) > kRounding) {
+    throw InputError(place + ": must have heights in metres (got " +
+                     ShownText(unit == nullptr ? "another unit" : unit) + ")");
+  }
+  OGRAxisOrientation direction = OAO_Up;
+  (void)system.GetAxis("VERT_CS", 0, &direction);
+  if (direction == OAO_Down) throw InputError(place + ": must have heights (got depths)");
 }
 
 using Transformation = std::unique_ptr<OGRCoordinateTransformation>;
@@ -71,12 +88,19 @@ Transformation TransformationFrom(const MapProjection& projection,
   if (const OGRSpatialReference* own = dataset.GetSpatialRef(); own != nullptr) {
     to = *own;
     to.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    CheckHeightsOf(to, name);
+    if (!crs.empty()) CheckHeightsOf(SystemOf(crs), "--heights-crs");
+    if (!crs.empty() && SystemOf(crs).IsSame(&to) == 0) {
+      throw InputError("--heights-crs: must be left out, for " + name + " states its own (got " +
+                       ShownText(crs) + ")");
+    }
   } else if (crs.empty()) {
     throw InputError(name +
                      ": must have a coordinate system; name it with --heights-crs, such as "
                      "EPSG:4326 (got none)");
   } else {
     to = SystemOf(crs);
+    CheckHeightsOf(to, "--heights-crs");
   }
   Transformation transformation(OGRCreateCoordinateTransformation(&from, &to));
   if (!transformation) {
@@ -114,7 +138,7 @@ void CheckAsciiGrid(const std::string& name, std::string_view text) {
     for (std::size_t i = is_head ? 1 : 0; i < words.size(); ++i) {
       word = words[i];
       std::ranges::replace(word, ',', '.');  // As GDAL reads them.
-      const auto value = ParseSignedNumber<double>(word);
+      const auto value = ParseTextNumber<double>(word);
       if (!value || !(std::isfinite(*value) || may_be_nan)) {
         throw InputError(name + ": line " + std::to_string(number) + ": must be numbers (got " +
                          ShownText(words[i]) + ")");

@@ -95,19 +95,26 @@ class GeoJsonReader {
   [[nodiscard]] std::vector<Remark>& remarks() { return remarks_; }
 
  private:
-  /// Older files may name another system than the only one of GeoJSON today.
+  /// Older files, and JSON-FG, may name another system than the only one of GeoJSON today. Those of
+  /// EPSG have latitude first by the letter of their register, but not in most files.
   void CheckSystem(const Json& object, const std::string& pointer) {
-    if (!object.contains("crs") || object["crs"].is_null()) return;
-    const std::string text = object["crs"].dump();
-    constexpr auto kSame = std::to_array<std::string_view>({"CRS84", "4326", "4979", "4258"});
-    const bool is_same = std::ranges::any_of(
-        kSame, [&](std::string_view name) { return text.find(name) != std::string::npos; });
-    if (is_same) return;
-    errors_.Add(
-        {pointer + "/crs",
-         "must be WGS 84, as GeoJSON has it (ogr2ogr -t_srs EPSG:4326 OUT.geojson IN.geojson "
-         "converts it)",
-         ShownText(text)});
+    for (const char* const key : {"crs", "coordRefSys"}) {
+      if (!object.contains(key) || object[key].is_null()) continue;
+      const std::string text = object[key].dump();
+      const auto has = [&](std::string_view name) { return text.find(name) != std::string::npos; };
+      if (has("CRS84")) continue;
+      if (has("4326") || has("4979") || has("4258")) {
+        remarks_.push_back(
+            {RemarkKind::kTagsUnread, pointer + "/" + key, 1,
+             "the order of axes; longitude is taken to be first (got " + ShownText(text) + ")"});
+        continue;
+      }
+      errors_.Add(
+          {pointer + "/" + key,
+           "must be WGS 84, as GeoJSON has it (ogr2ogr -t_srs EPSG:4326 OUT.geojson IN.geojson "
+           "converts it)",
+           ShownText(text)});
+    }
   }
 
   void ReadCoordinates(const Json& object, const std::string& pointer, const MapTags& tags) {

@@ -199,6 +199,16 @@ TEST_F(Elevation, IsRefusedInOneLineWhereItIsWrong) {
   EXPECT_EQ(Fault(Path("dem.asc"), "EPSG:99999"),
             "--heights-crs: must be a coordinate system that PROJ knows, such as EPSG:4326 (got "
             "EPSG:99999)");
+  for (const auto& [crs, got] : std::vector<std::pair<std::string, std::string>>{
+           {"EPSG:4326+6360", "metres (got US survey foot)"},
+           {"EPSG:31256+8228", "metres (got foot)"},
+           {"EPSG:4326+5715", "heights (got depths)"}}) {
+    EXPECT_THAT(Fault(Path("dem.asc"), crs), testing::StartsWith("--heights-crs: must have "))
+        << crs;
+    EXPECT_THAT(Fault(Path("dem.asc"), crs), HasSubstr(got)) << crs;
+  }
+  EXPECT_THAT(Fault(Path("dem.asc"), "EPSG:31256+5778"),
+              testing::Not(testing::StartsWith("--heights-crs")));
   const std::string grid = PlaneGrid();
   const std::string cut = Fault(Write("cut.asc", grid.substr(0, grid.size() / 2)), "EPSG:31256");
   EXPECT_THAT(cut, HasSubstr("cut.asc: must have ncols x nrows heights, 1600 (got "));
