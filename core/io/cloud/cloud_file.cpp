@@ -98,18 +98,19 @@ std::vector<std::string> Rewritten(const CloudFile& file, const OtherPoints& poi
   std::string bytes =
       num == cloud.num_points() ? std::string(file.header) : WithNumber(file.header, num);
   std::string parts(points.data.size(), '\0');
+  std::vector<std::uint8_t> rows = points.data;
+  // Three times more make four.
+  for (int i = 0; i < 3 && file.is_turned; ++i) TurnLeft(cloud, rows);
   if (file.label_bytes > 0) {
     const std::size_t point_bytes = cloud.point_step - file.label_bytes;
-    Transpose({point_bytes, file.label_bytes}, num, points.data.data(), false, parts.data());
+    Transpose({point_bytes, file.label_bytes}, num, rows.data(), false, parts.data());
     return {parts.substr(0, num * point_bytes), parts.substr(num * point_bytes)};
   }
   switch (file.storage) {
-    case PointStorage::kRows: {
-      std::vector<std::uint8_t> rows = points.data;
+    case PointStorage::kRows:
       if (file.is_big_endian) SwapBytes(cloud, rows);
       bytes.append(reinterpret_cast<const char*>(rows.data()), rows.size());
       break;
-    }
     case PointStorage::kFields:
       Transpose(FieldSizes(cloud), num, points.data.data(), false, parts.data());
       AppendCompressed(parts, bytes);

@@ -29,6 +29,8 @@ struct CloudFile {
   std::string_view tail;      ///< What follows them, such as the faces of a PLY file.
   std::size_t label_bytes{};  ///< KITTI: at the end of each point, from the file of the labels.
   bool is_big_endian{};       ///< PLY: the byte order of the points as stored.
+  /// nuScenes: whether points as stored have x to the right and y forward. The cloud's are turned.
+  bool is_turned{};
 };
 
 // Each of FrameFormat::parse (railcast/io/cloud_files.h). `file` is named in errors, which are
@@ -60,12 +62,16 @@ struct CloudFile {
 /// or "float64" (x y z intensity).
 [[nodiscard]] bool IsKittiColumns(std::string_view choice);
 
-/// As ParseKittiFile(), with the numbers of a point that were chosen.
+/// As ParseKittiFile(), with the numbers of a point that were chosen. nuScenes' points are turned
+/// into the axes x forward, y left.
 /// @pre IsKittiColumns(choice).
 [[nodiscard]] CloudFile ParseKittiColumns(const std::string& file,
                                           std::string_view bytes,
                                           const std::optional<std::string>& labels,
                                           std::string_view choice);
+
+/// Turns float32 x and y, with which rows begin, from x right, y forward to x forward, y left.
+void TurnLeft(const Cloud& cloud, std::vector<std::uint8_t>& rows);
 
 /// Parses a cloud file by the ending of its name.
 /// @param columns One of IsKittiColumns(); empty = none was chosen.

@@ -165,6 +165,49 @@ bool AreDoubles(const std::vector<float>& halves) {
   return num_numbers < halves.size() / 4;
 }
 
+/// Whether the numbers of a file stand in so many rows, one after the other, which makes parts of
+/// the file unlike each other: x, y, z can be positions, and no other row has numbers below 0,
+/// while x or y has.
+bool AreRows(std::string_view bytes, std::size_t num_rows) {
+  constexpr std::size_t kLeastPoints = 64;
+  constexpr std::size_t kMostPoints = 15'000;
+  constexpr std::size_t kManyBelow = 20;  // One in so many.
+  const std::size_t num_points = bytes.size() / sizeof(float) / num_rows;
+  if (bytes.size() != num_points * num_rows * sizeof(float) || num_points < kLeastPoints) {
+    return false;
+  }
+  const std::size_t step = (num_points + kMostPoints - 1) / kMostPoints;
+  std::vector<float> numbers;
+  std::vector<std::size_t> num_below(num_rows);
+  for (std::size_t point = 0; point < num_points; point += step) {
+    for (std::size_t row = 0; row < num_rows; ++row) {
+      float number{};
+      std::memcpy(&number, bytes.data() + (row * num_points + point) * sizeof number,
+                  sizeof number);
+      numbers.push_back(number);
+      num_below[row] += number < 0.0F ? 1 : 0;
+    }
+  }
+  const bool are_others_above = std::ranges::none_of(std::span(num_below).subspan(3),
+                                                     [](std::size_t num) { return num > 0; });
+  return are_others_above &&
+         kManyBelow * std::max(num_below[0], num_below[1]) >= numbers.size() / num_rows &&
+         CanBePositions(numbers, num_rows);
+}
+
+/// Says that the numbers of a file stand in rows; empty if they do not.
+std::string SayRows(std::string_view bytes) {
+  for (const std::size_t num : {4UL, 5UL, 6UL}) {
+    if (!AreRows(bytes, num)) continue;
+    const std::string rows = NumberText(num);
+    return "they stand in " + rows +
+           " rows, x, y, z and others, one after the other: numpy.fromfile(FILE, "
+           "'float32').reshape(" +
+           rows + ", -1).T.tofile(FILE) stores them by points";
+  }
+  return {};
+}
+
 /// The choice of other columns that fits the values of a file that is read with four; "4" if these
 /// do, or if there are too few to tell; empty if none fits.
 std::string FittingColumns(std::string_view bytes) {
@@ -214,13 +257,19 @@ void CheckFour(const std::string& file, std::string_view bytes) {
   const std::string fitting = FittingColumns(bytes);
   const bool is_uneven = bytes.size() % (4 * sizeof(float)) != 0;
   if (!is_uneven && fitting == "4") return;
-  const std::string what = fitting.empty() || fitting == "4" ? "" : "; " + SayWhatFits(fitting);
+  const std::string rows = SayRows(bytes);
+  std::string what = rows;
+  if (rows.empty() && fitting != "4") {
+    what = fitting.empty() ? "nor those of 3, 5, 6, 7, 8, 12 or 16 numbers, of 4 of float64, or of "
+                             "rows; --kitti-columns N takes N numbers a point as they are"
+                           : SayWhatFits(fitting);
+  }
+  if (!what.empty()) what.insert(0, "; ");
   if (is_uneven) {
     throw InputError(file + ": must have 16 bytes for each point" + Got(bytes.size()) + what);
   }
   throw InputError(
-      file + ": its values are not those of 4 numbers a point, x y z intensity, in metres" +
-      (what.empty() ? "; --kitti-columns N takes N numbers a point as they are" : what));
+      file + ": its values are not those of 4 numbers a point, x y z intensity, in metres" + what);
 }
 
 void CheckLabels(const std::string& file,
@@ -277,6 +326,15 @@ CloudFile ReadColumns(const std::string& file,
 
 }  // namespace
 
+void TurnLeft(const Cloud& cloud, std::vector<std::uint8_t>& rows) {
+  for (auto row = rows.begin(); row != rows.end(); row += cloud.point_step) {
+    std::array<float, 2> place{};
+    std::memcpy(place.data(), &*row, sizeof place);
+    place = {place[1], -place[0]};
+    std::memcpy(&*row, place.data(), sizeof place);
+  }
+}
+
 bool IsKittiColumns(std::string_view choice) {
   return ColumnsNamed(choice).has_value();
 }
@@ -295,7 +353,14 @@ CloudFile ParseKittiColumns(const std::string& file,
                             std::string_view choice) {
   const auto columns = ColumnsNamed(choice);
   Check(columns.has_value(), "the choice is one of IsKittiColumns()");
-  return ReadColumns(file, bytes, labels, *columns);
+  const std::string rows = columns->type == NumberType::kFloat ? SayRows(bytes) : "";
+  if (!rows.empty()) {
+    throw InputError(file + ": must have the numbers of a point side by side; " + rows);
+  }
+  CloudFile read = ReadColumns(file, bytes, labels, *columns);
+  read.is_turned = choice == "nuscenes";
+  if (read.is_turned) TurnLeft(read.cloud, read.cloud.data);
+  return read;
 }
 
 }  // namespace railcast

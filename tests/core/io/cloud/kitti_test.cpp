@@ -278,7 +278,9 @@ TEST(KittiReader, TakesNoNumbersOfRowsForCoordinates) {
     std::memcpy(&bytes[16 * point], &ring, sizeof ring);
   }
   EXPECT_EQ(BinFault(bytes),
-            std::string(kNotFour) + "--kitti-columns N takes N numbers a point as they are");
+            std::string(kNotFour) +
+                "nor those of 3, 5, 6, 7, 8, 12 or 16 numbers, of 4 of float64, or of rows; "
+                "--kitti-columns N takes N numbers a point as they are");
 }
 
 TEST(KittiReader, NamesTheColumnsOfAnUnevenLength) {
@@ -302,6 +304,38 @@ TEST(KittiReader, ReadsTheColumnsThatAreChosen) {
   EXPECT_NE(ParseKittiColumns("a.bin", BinRoom<float>(7), {}, "7").cloud.Find("number_7"), nullptr);
   EXPECT_TRUE(IsKittiColumns("16"));
   for (const char* const none : {"", "2", "17", "kitti", "5x"}) EXPECT_FALSE(IsKittiColumns(none));
+}
+
+TEST(KittiReader, TurnsThePointsOfNuScenes) {
+  const std::string bytes = BinRoom<float>(5);
+  std::vector<float> stored(bytes.size() / sizeof(float));
+  std::memcpy(stored.data(), bytes.data(), bytes.size());
+  const CloudFile file = ParseKittiColumns("a.bin", bytes, {}, "nuscenes");
+  // Stored to the right and forward.
+  VisitField(file.cloud, *file.cloud.Find("x"),
+             [&](std::size_t i, auto value) { ASSERT_EQ(value, stored[5 * i + 1]); });
+  VisitField(file.cloud, *file.cloud.Find("y"),
+             [&](std::size_t i, auto value) { ASSERT_EQ(value, -stored[5 * i]); });
+  EXPECT_EQ(Rewritten(file, {file.cloud.data, std::vector<std::uint32_t>(640)}).at(0), bytes);
+}
+
+TEST(KittiReader, NamesRowsThatStandOneAfterTheOther) {
+  for (const std::size_t num_rows : {4UL, 5UL, 6UL}) {
+    const std::string bytes = BinRoom<float>(num_rows);
+    std::string by_rows(bytes.size(), '\0');
+    const std::size_t num = bytes.size() / 4 / num_rows;
+    for (std::size_t i = 0; i < bytes.size() / 4; ++i) {
+      std::memcpy(&by_rows[4 * (i % num_rows * num + i / num_rows)], &bytes[4 * i], 4);
+    }
+    const std::string rows = NumberText(num_rows);
+    const std::string what = "they stand in " + rows +
+                             " rows, x, y, z and others, one after the other: numpy.fromfile(FILE, "
+                             "'float32').reshape(" +
+                             rows + ", -1).T.tofile(FILE) stores them by points";
+    EXPECT_EQ(BinFault(by_rows), kNotFour + what);
+    EXPECT_EQ(MessageOf([&] { (void)ParseKittiColumns("a.bin", by_rows, {}, "16"); }),
+              "a.bin: must have the numbers of a point side by side; " + what);
+  }
 }
 
 TEST(KittiReader, SaysHowManyNumbersAPointTheLabelsAreFor) {
