@@ -25,9 +25,9 @@ std::optional<double> GaugeIn_mm(std::string_view text) {
 
 constexpr const char* kUsualKey = "import:usual";
 
-/// Whether a value of `electrified` is a contact line.
+/// Whether `electrified` has a contact line.
 bool IsContactLine(std::string_view electrified) {
-  return electrified == "contact_line" || electrified == "yes";
+  return HasOneOf(electrified, {"contact_line", "yes"});
 }
 
 /// How much of a map's tracks of one kind has what.
@@ -120,20 +120,79 @@ void TellOtherSpeeds(const MapWay& way, std::vector<Remark>& remarks) {
   }
 }
 
+/// A tag that is read, and those of its values that are understood.
+struct KnownTag {
+  std::string_view key;
+  std::string_view values;  ///< Between blanks; empty: those of `is_known`.
+  bool (*is_known)(std::string_view value) = nullptr;
+  bool is_whole_list{};  ///< Whether all values of a list are used.
+};
+
+constexpr auto kKnownTags = std::to_array<KnownTag>({
+    {"railway",
+     " rail light_rail narrow_gauge subway tram preserved platform level_crossing crossing "
+     "buffer_stop signal milestone derail "},
+    {.key = "electrified", .values = " contact_line yes rail no ", .is_whole_list = true},
+    {.key = "gauge",
+     .values = "",
+     .is_known = [](std::string_view value) { return GaugeIn_mm(value).has_value(); },
+     .is_whole_list = true},
+    {"service", " yard siding spur crossover "},
+    {"usage", " main branch industrial military tourism scientific test freight leisure "},
+    {"railway:ballastless", " yes no "},
+    {"railway:signal:direction", " forward backward both "},
+    {"railway:signal:position", " left right overhead bridge in_track "},
+    {"crossing:barrier", " no yes full half double_half gate lift_gate "},
+    {"covered", " yes no "},
+    {"height", "", [](std::string_view value) { return MetresIn(value).has_value(); }},
+});
+
+/// Tells values of known tags that are not understood, or are not taken of a list, and leaves the
+/// first value of a list that is understood.
+void SettleTags(MapTags& tags, const std::string& place, std::vector<Remark>& remarks) {
+  for (const KnownTag& known : kKnownTags) {
+    const auto tag = tags.find(known.key);
+    if (tag == tags.end()) continue;
+    const auto tell = [&](std::string_view text) {
+      remarks.push_back(
+          {RemarkKind::kTagsUnread, place, 1, std::string(known.key) + "=" + ShownText(text)});
+    };
+    std::string taken;
+    for (const std::string_view value : ValuesOf(tag->second)) {
+      const bool is_known =
+          known.is_known != nullptr
+              ? known.is_known(value)
+              : known.values.find(" " + std::string(value) + " ") != std::string_view::npos;
+      const bool is_taken = is_known && (taken.empty() || known.is_whole_list);
+      if (!is_taken) tell(value);
+      if (is_taken) taken += (taken.empty() ? "" : ";") + std::string(value);
+    }
+    if (!taken.empty()) tag->second = taken;
+  }
+}
+
 }  // namespace
 
 std::optional<double> GaugeOf_mm(std::string_view gauge) {
   std::optional<double> first_mm;
-  while (true) {
-    const std::size_t end = std::min(gauge.find(';'), gauge.size());
-    std::string_view one = gauge.substr(0, end);
-    while (one.starts_with(' ')) one.remove_prefix(1);
+  for (const std::string_view one : ValuesOf(gauge)) {
     const std::optional<double> gauge_mm = GaugeIn_mm(one);
     if (gauge_mm == kStandardGauge_mm) return gauge_mm;
     if (!first_mm) first_mm = gauge_mm;
-    if (end == gauge.size()) return first_mm;
-    gauge.remove_prefix(end + 1);
   }
+  return first_mm;
+}
+
+bool HasNoContactLine(std::string_view electrified) {
+  return HasOneOf(electrified, {"no", "rail"}) && !IsContactLine(electrified);
+}
+
+std::optional<double> MetresIn(std::string_view text) {
+  double value_m = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value_m);
+  const std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
+  if (error != std::errc{} || !(unit.empty() || unit == " m" || unit == "m")) return std::nullopt;
+  return value_m;
 }
 
 double GaugeAlong_mm(const RailMap& map, const TrackLine& line) {
@@ -176,7 +235,7 @@ bool HasContactLine(const RailMap& map, const TrackLine& track) {
     const std::size_t source = TagOf(tags, kUsualKey).empty() ? 0 : 1;
     const double length_m = StepLength_m(map, track, i);
     if (IsContactLine(electrified)) with_m[source] += length_m;
-    if (electrified == "no" || electrified == "rail") without_m[source] += length_m;
+    if (HasNoContactLine(electrified)) without_m[source] += length_m;
   }
   const bool says_something = with_m[0] + without_m[0] > 0.0;
   const std::size_t source = says_something ? 0 : 1;
@@ -213,6 +272,13 @@ std::optional<double> SpeedOf_kmph(const MapTags& tags) {
 }
 
 void TellTags(RailMap& map) {
+  for (MapWay& way : map.ways) SettleTags(way.tags, way.place, map.remarks);
+  for (MapThing& thing : map.things) {
+    const Eigen::Vector2d& place_deg = thing.geographic_deg.front();
+    SettleTags(thing.tags,
+               "thing at " + NumberText(place_deg.y()) + ", " + NumberText(place_deg.x()),
+               map.remarks);
+  }
   constexpr auto kOthers = std::to_array<std::string_view>(
       {"maxspeed:type", "maxspeed:source", "maxspeed:reason", "maxspeed:note", kDirections[0],
        kDirections[1], kConditional});

@@ -28,9 +28,17 @@ namespace railcast {
 [[nodiscard]] std::optional<double> SpeedOf_kmph(const MapTags& tags);
 
 /// Adds to a map's remarks the ways whose speeds are not understood, are several or differ by
-/// direction, or which have others, by condition or kind of train (`maxspeed:freight`, ...), and
-/// those that stand for several tracks (`tracks=2`).
+/// direction, or which have others, by condition or kind of train (`maxspeed:freight`, ...), those
+/// that stand for several tracks (`tracks=2`), and the values of tags of ways and things that are
+/// not understood. Of lists of values, as "main;branch", the first that is understood stays, and
+/// all of `electrified`, `gauge` and speeds.
 void TellTags(RailMap& map);
+
+/// Whether `electrified` says that there is no contact line: "no", "rail".
+[[nodiscard]] bool HasNoContactLine(std::string_view electrified);
+
+/// A number of metres in a tag, "0.55", "0.55 m"; absent for anything else.
+[[nodiscard]] std::optional<double> MetresIn(std::string_view text);
 
 /// Gives every track without a tag `electrified` what is usual for its kind (`railway`): trams have
 /// a contact line; other kinds have one if the tag is on at least half of their length on this map,

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
@@ -24,11 +25,31 @@ using MapTags = std::map<std::string, std::string, std::less<>>;
   return found == tags.end() ? std::string_view{} : found->second;
 }
 
-/// Whether a value of OpenStreetMap's key `railway` is a track that trains can run on.
+/// The values of a list as OpenStreetMap has them: "contact_line;rail". None of an empty text.
+[[nodiscard]] inline std::vector<std::string_view> ValuesOf(std::string_view list) {
+  std::vector<std::string_view> values;
+  while (!list.empty()) {
+    const std::size_t end = std::min(list.find(';'), list.size());
+    std::string_view value = list.substr(0, end);
+    list.remove_prefix(std::min(end + 1, list.size()));
+    while (value.starts_with(' ')) value.remove_prefix(1);
+    while (value.ends_with(' ')) value.remove_suffix(1);
+    if (!value.empty()) values.push_back(value);
+  }
+  return values;
+}
+
+/// Whether a list (ValuesOf()) has one of some values.
+[[nodiscard]] inline bool HasOneOf(std::string_view list,
+                                   std::initializer_list<std::string_view> wanted) {
+  return std::ranges::any_of(ValuesOf(list), [&](std::string_view value) {
+    return std::ranges::find(wanted, value) != wanted.end();
+  });
+}
+
+/// Whether OpenStreetMap's key `railway` has a track that trains can run on.
 [[nodiscard]] inline bool IsTrack(std::string_view railway) {
-  constexpr auto kTracks = std::to_array<std::string_view>(
-      {"rail", "light_rail", "narrow_gauge", "subway", "tram", "preserved"});
-  return std::ranges::find(kTracks, railway) != kTracks.end();
+  return HasOneOf(railway, {"rail", "light_rail", "narrow_gauge", "subway", "tram", "preserved"});
 }
 
 /// The tag of what may be rails, but is no track as of IsTrack(): any `railway`, as "Railway=rail"
@@ -79,7 +100,7 @@ struct MapThing {
 /// Whether OpenStreetMap's tags are those of a platform beside tracks, and not of one for buses or
 /// ships.
 [[nodiscard]] inline bool IsPlatform(const MapTags& tags) {
-  if (TagOf(tags, "railway") == "platform") return true;
+  if (HasOneOf(TagOf(tags, "railway"), {"platform"})) return true;
   if (TagOf(tags, "public_transport") != "platform" || !TagOf(tags, "highway").empty())
     return false;
   constexpr auto kOthers =
@@ -90,9 +111,9 @@ struct MapThing {
 
 /// Whether OpenStreetMap's tags are those of a thing of which import makes something.
 [[nodiscard]] inline bool IsThing(const MapTags& tags) {
-  constexpr auto kThings = std::to_array<std::string_view>(
-      {"level_crossing", "crossing", "buffer_stop", "signal", "milestone", "derail"});
-  return IsPlatform(tags) || std::ranges::find(kThings, TagOf(tags, "railway")) != kThings.end();
+  return IsPlatform(tags) ||
+         HasOneOf(TagOf(tags, "railway"),
+                  {"level_crossing", "crossing", "buffer_stop", "signal", "milestone", "derail"});
 }
 
 /// The railway tracks of a map. Tracks meet where ways share a node.

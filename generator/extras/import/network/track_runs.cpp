@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "generator/extras/import/lines/line_tags.h"
 #include "generator/extras/import/lines/speed_limits.h"
 #include "generator/extras/import/network/line_world.h"
 
@@ -137,7 +138,7 @@ class RunCutter {
     TrackRun run;
     run.kind = KindOf(CommonTag(map_, begin, end, kServiceKey));
     const std::string electrified = CommonTag(map_, begin, end, "electrified");
-    run.is_electrified = electrified != "no" && electrified != "rail";
+    run.is_electrified = !HasNoContactLine(electrified);
     const auto node = chain.nodes.begin() + static_cast<std::ptrdiff_t>(first);
     run.nodes.assign(node, node + static_cast<std::ptrdiff_t>(points_m.size()));
     for (std::size_t i = 0; i + 1 < points_m.size(); ++i) {

@@ -135,7 +135,7 @@ void AddWayStructures(const RailMap& map, LineWorld& world) {
     AddAlong(slab, SlabTrackSpec{}, world);
   }
   const auto has_third_rail = [](const MapTags& tags) {
-    return TagOf(tags, "electrified") == "rail";
+    return HasOneOf(TagOf(tags, "electrified"), {"rail"});
   };
   for (const TaggedStretch& stretch : StretchesOfAll(map, world, has_third_rail)) {
     ThirdRailSpec rail;

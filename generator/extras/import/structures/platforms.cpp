@@ -1,7 +1,6 @@
 #include "generator/extras/import/structures/line_structures.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -12,6 +11,7 @@
 
 #include "core/base/median.h"
 #include "core/rail/line/track_course.h"
+#include "generator/extras/import/lines/line_tags.h"
 
 namespace railcast {
 namespace {
@@ -176,15 +176,6 @@ bool IsTaken(const PlatformSpec& platform, const LineWorld& world) {
                    std::max(other->begin_s_m, platform.begin_s_m) >
                kShortestPlatform_m;
   });
-}
-
-/// A number of metres in a tag; absent for anything else.
-std::optional<double> MetresIn(std::string_view text) {
-  double value_m = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value_m);
-  const std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
-  if (error != std::errc{} || !(unit.empty() || unit == " m" || unit == "m")) return std::nullopt;
-  return value_m;
 }
 
 /// What the tags of a platform say.

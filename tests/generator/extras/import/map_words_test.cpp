@@ -80,7 +80,7 @@ TEST_F(MapWords, NameTracksThatAreNotRead) {
   };
   const std::string way = WayInXml({3, 4, 5}, "", 8);
   const std::string way_json = WayInJson({3, 4, 5}, "", 8);
-  for (const std::string kind : {"construction", "Rail", "rail;tram"}) {
+  for (const std::string kind : {"construction", "Rail", "disused;razed"}) {
     for (const RailMap& map :
          {Read("a.osm", Xml(NodesInXml() + WayInXml({1, 2, 3}) + of_kind(way, kind))),
           Read("b.json",
@@ -315,6 +315,13 @@ TEST_F(MapWords, OfCoordinateSystemsOtherThanWgs84AreRefused) {
   EXPECT_THAT(Read("a.geojson", with("urn:ogc:def:crs:OGC:1.3:CRS84")).ways, SizeIs(1));
   EXPECT_THAT(Fault("b.geojson", with("urn:ogc:def:crs:EPSG::25833")),
               HasSubstr("b.geojson: /crs: must be WGS 84"));
+  for (const char* const code : {"http://www.opengis.net/def/crs/EPSG/0/4326", "EPSG:4258"}) {
+    const auto remark = RemarkOf(Read("c.geojson", with(code)), RemarkKind::kTagsUnread);
+    ASSERT_TRUE(remark) << code;
+    EXPECT_EQ(remark->place, "/crs");
+    EXPECT_THAT(remark->detail,
+                HasSubstr("the order of axes; longitude is taken to be first (got {"));
+  }
 }
 
 std::string Kml(const std::string& mode, const std::string& coordinates) {

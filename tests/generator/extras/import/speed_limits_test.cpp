@@ -238,6 +238,36 @@ TEST(ContactLine, IsThereWhereTheMapHasIt) {
   EXPECT_FALSE(HasContactLineByRule(TwoWays({{"railway", "tram"}}, {{"electrified", "rail"}})));
 }
 
+TEST(ContactLine, MayBeOneOfSeveralValues) {
+  for (const auto& [electrified, has_one] :
+       {std::pair("contact_line;rail", true), std::pair("rail; contact_line", true),
+        std::pair("rail;no", false), std::pair("4th_rail;yes", true)}) {
+    const MapTags tags = {{"railway", "rail"}, {"electrified", electrified}};
+    EXPECT_EQ(HasContactLineByRule(TwoWays(tags, tags)), has_one) << electrified;
+  }
+}
+
+TEST(TagValues, ThatAreNotUnderstoodAreTold) {
+  RailMap map = TwoWays({{"railway", "tram;rail"},
+                         {"electrified", "contact_line;4th_rail"},
+                         {"service", "yard"},
+                         {"usage", "sightseeing"},
+                         {"gauge", "1435;wide"}});
+  map.ways.resize(1);
+  map.things.push_back({{{15.5, 48.25}}, {}, {{"railway", "platform"}, {"height", "low; 0.55"}}});
+  TellTags(map);
+  std::vector<std::string> told;
+  for (const Remark& remark : map.remarks) {
+    EXPECT_EQ(remark.kind, RemarkKind::kTagsUnread);
+    told.push_back(remark.detail);
+  }
+  EXPECT_THAT(told, testing::UnorderedElementsAre("railway=rail", "electrified=4th_rail",
+                                                  "usage=sightseeing", "gauge=wide", "height=low"));
+  EXPECT_EQ(map.remarks.back().place, "thing at 48.25, 15.5");
+  EXPECT_EQ(map.ways[0].tags["railway"], "tram");
+  EXPECT_EQ(map.things[0].tags["height"], "0.55");
+}
+
 TEST(ContactLine, IsNotThereWithoutATagUnlessItIsUsual) {
   EXPECT_FALSE(HasContactLineByRule(TwoWays({{"railway", "rail"}})));
   EXPECT_TRUE(HasContactLineByRule(TwoWays({{"railway", "tram"}})));

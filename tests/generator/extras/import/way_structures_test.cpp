@@ -169,6 +169,11 @@ TEST(WayStructures, TramsAndUndergroundsInTunnelsHaveNoBallast) {
   }
 }
 
+TEST(WayStructures, ThirdRailMayStandBesideAContactLine) {
+  MadeMap map = ImportedTracks({{0.0, {{"electrified", "contact_line;rail"}}}});
+  EXPECT_THAT(map.All<ThirdRailSpec>(), SizeIs(1));
+}
+
 TEST(WayStructures, SlabTrackAndThirdRailBelongToTheirTrack) {
   MadeMap map =
       ImportedTracks({{0.0, {}}, {4.5, {{"railway:ballastless", "yes"}, {"electrified", "rail"}}}});
