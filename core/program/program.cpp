@@ -67,6 +67,11 @@ bool IsOutOfThreads(const std::exception& error) {
          (system != nullptr && system->code() == std::errc::resource_unavailable_try_again);
 }
 
+// The JSON library writes texts of users as they are, or not at all; compared by text, too.
+bool IsNoUtf8(const std::exception& error) {
+  return std::string_view(error.what()).starts_with("[json.exception.type_error.316]");
+}
+
 // Reports that memory or threads have run out where no exception may be thrown, for example while
 // TBB starts its threads. It must not allocate memory.
 [[noreturn]] void Terminate() {
@@ -141,6 +146,8 @@ int RunMain(const std::string& program,
   } catch (const std::exception& error) {
     if (IsOutOfThreads(error)) {
       complaints << kOutOfThreads;
+    } else if (IsNoUtf8(error)) {
+      complaints << program << ": names in files of JSON must be UTF-8\n";
     } else {
       complaints << program << ": " << ShownLines(error.what()) << "\n";
     }

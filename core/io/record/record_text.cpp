@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/scenario/archive.h"
 
 namespace railcast {
@@ -22,7 +23,11 @@ void AppendJsonText(const std::string& value, std::string& text) {
   if (is_plain) {
     text.append(1, '"').append(value).append(1, '"');
   } else {
-    text.append(Json(value).dump());
+    try {
+      text.append(Json(value).dump());
+    } catch (const Json::type_error&) {
+      throw InputError("names in files of JSON must be UTF-8 (got " + Quoted(value) + ")");
+    }
   }
 }
 

@@ -81,6 +81,17 @@ TEST(Record, ReadsWhatItWritesToTheLastDigit) {
   EXPECT_EQ(nlohmann::ordered_json::parse(kFull).dump(), kFull);
 }
 
+TEST(Record, HasNamesOfUtf8Alone) {
+  WholeRecord record;
+  record.note = "drive\xFF";
+  try {
+    (void)RecordText(record);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "names in files of JSON must be UTF-8 (got \"drive\\xff\")");
+  }
+}
+
 TEST(Record, LeavesOutWhatIsEmptyAndSaysWhatIsNull) {
   EXPECT_EQ(RecordText(WholeRecord{}),
             R"({"stamp_ns":0,"share":0.0,"place_m":[0.0,0.0,0.0],"turn_xyzw":[0.0,0.0,0.0,1.0],)"
