@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/io/recording/firing_truth.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/scan_table.h"
 #include "core/points/nearest_points.h"
@@ -58,7 +59,7 @@ std::vector<Category> BeamKinds(const RecordedFrame& recorded) {
     ++num_empty;
     ++counts[static_cast<std::size_t>(frame.outcome[slot])];
   }
-  if (!recorded.Has("outcome")) {
+  if (!HasAllOutcomes(recorded)) {
     return {{.value = 0.0,
              .name = "beams without return",
              .rgb = kUnknownOutcomeRgb,

@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/io/cloud/scan_motion.h"
+#include "core/io/recording/firing_truth.h"
 #include "core/io/recording/scan_table.h"
 #include "viewer/color/palette.h"
 
@@ -38,7 +39,7 @@ Overlay DrawEmptyBeams(const RecordedFrame& recorded, const Beams& beams) {
   const Frame& frame = recorded.frame;
   if (!recorded.is_grid) return drawing;
   Check(beams.rows == frame.rows && beams.columns == frame.columns, "beams are those of the frame");
-  const bool has_outcomes = recorded.Has("outcome");
+  const bool has_outcomes = HasAllOutcomes(recorded);
   const bool has_true_ranges = recorded.Has("true_range_m");
   const ScanMotion motion(frame);
   drawing.segments.reserve(beams.directions.size());

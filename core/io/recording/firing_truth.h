@@ -8,10 +8,17 @@
 
 namespace railcast {
 
+/// Whether the outcomes of all slots are known. Files of points alone have those of points; slots
+/// without a point then have 0.
+[[nodiscard]] inline bool HasAllOutcomes(const RecordedFrame& recorded) {
+  const std::size_t num_entries = recorded.slot_of_entry.size();
+  return recorded.Has("outcome") && (num_entries == 0 || num_entries >= recorded.frame.num_slots());
+}
+
 /// Whether a recording says what became of each firing; dropout is then counted instead of
 /// estimated.
 [[nodiscard]] inline bool HasOutcomes(const RecordedFrame& recorded) {
-  return recorded.is_grid && recorded.Has("outcome");
+  return recorded.is_grid && HasAllOutcomes(recorded);
 }
 
 /// Whether the first slot of a firing says which surface of the scene the beam met. It does not

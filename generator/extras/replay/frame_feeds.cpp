@@ -12,6 +12,7 @@
 #include "core/extras/ros/messages/frame_topics.h"
 #include "core/extras/ros/messages/geometry_messages.h"
 #include "core/extras/ros/messages/scene_topics.h"
+#include "core/io/recording/firing_truth.h"
 #include "core/io/stream/stream_encoder.h"
 #include "core/scenario/sensors.h"
 #include "core/simulate/returns.h"
@@ -22,10 +23,14 @@ namespace {
 
 /// Says of each slot whether it has a point, where the recording says no more.
 void FillOutcomes(RecordedFrame& recorded) {
-  if (recorded.Has("outcome")) return;
+  if (HasAllOutcomes(recorded)) return;
   Frame& frame = recorded.frame;
   for (std::size_t i = 0; i < frame.num_slots(); ++i) {
-    frame.outcome[i] = std::isnan(frame.x[i]) ? Outcome::kNoSurface : Outcome::kReturned;
+    if (std::isnan(frame.x[i])) {
+      frame.outcome[i] = Outcome::kNoSurface;
+    } else if (!recorded.Has("outcome")) {
+      frame.outcome[i] = Outcome::kReturned;
+    }
   }
 }
 
@@ -48,7 +53,8 @@ void CheckHasFirings(const RecordedFrame& recorded, const LidarSpec& lidar, Prot
   };
   for (const char* field :
        {"range_m", "intensity", "power_ratio", "time_ns", "outcome", "true_range_m"}) {
-    if (recorded.is_grid && recorded.Has(field)) continue;
+    const bool is_part = field == std::string_view("outcome") && !HasAllOutcomes(recorded);
+    if (recorded.is_grid && recorded.Has(field) && !is_part) continue;
     fail(
         "range_m, intensity, power_ratio, time_ns, outcome and true_range_m, as `sequence "
         "--format pcd --fields all` writes them (got none of " +

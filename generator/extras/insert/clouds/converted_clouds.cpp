@@ -5,6 +5,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/io/recording/firing_truth.h"
 #include "core/io/recording/recording_kinds.h"
 #include "generator/extras/insert/clouds/recording_output.h"
 
@@ -117,7 +118,7 @@ class ConvertedClouds : public RecordingOutput {
 
 Frame WithOutcomes(const RecordedFrame& recorded) {
   Frame frame = recorded.frame;
-  if (recorded.Has("outcome")) return frame;
+  if (HasAllOutcomes(recorded)) return frame;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     // Files of points alone know the outcomes of these.
     const bool is_known = !std::isnan(frame.x[slot]) && HasPoint(frame.outcome[slot]);

@@ -5,6 +5,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/recording/firing_truth.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/run/camera_files.h"
 #include "core/io/run/motion_files.h"
@@ -38,7 +39,7 @@ FrameCounts CountsWith(FrameCounts counts,
     if (edit.has_point)
       count(edit.is_added || !edit.from_slot ? after : before,
             edit.is_added ? edit.slot : edit.from_slot.value_or(edit.slot), 1);
-    if (edit.slot % before.returns != 0 || !firings.recorded.Has("outcome")) continue;
+    if (edit.slot % before.returns != 0 || !HasAllOutcomes(firings.recorded)) continue;
     --counts.outcomes.at(static_cast<std::size_t>(before.outcome[edit.slot]));
     ++counts.outcomes.at(static_cast<std::size_t>(after.outcome[edit.slot]));
   }

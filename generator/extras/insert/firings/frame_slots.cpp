@@ -27,7 +27,6 @@ std::vector<Value> Moved(const std::vector<Value>& values, const NewSlots& to) {
 
 void MoveSlots(const NewSlots& to, RecordedFrame& recorded) {
   Frame& frame = recorded.frame;
-  if (to.num_cells() * to.returns > frame.num_slots()) recorded.fields.erase("outcome");
   ForEachField(frame, [&](auto, auto, auto& values) { values = Moved(values, to); });
   frame.rows = to.rows;
   frame.columns = to.columns;

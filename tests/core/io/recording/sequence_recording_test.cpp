@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/io/content_hash.h"
+#include "core/io/recording/firing_truth.h"
 #include "railcast/io/recording.h"
 #include "tests/core/io/damage.h"
 #include "tests/core/io/message_of.h"
@@ -119,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(SequenceRecording,
 
 class PointFormat : public testing::TestWithParam<const char*> {};
 
-// PLY holds only points, so the outcome of firings without a point is lost.
+// PLY holds only points, so the outcome of firings without a point is lost, and only that.
 TEST_P(PointFormat, PutsPointsBackIntoTheirSlots) {
   const TemporaryDirectory directory;
   const auto made =
@@ -134,6 +135,8 @@ TEST_P(PointFormat, PutsPointsBackIntoTheirSlots) {
     ExpectSameHead(frame, truth);
     ExpectSameShape(frame, truth);
     EXPECT_TRUE(frames[f].is_grid);
+    EXPECT_TRUE(frames[f].Has("outcome"));
+    EXPECT_FALSE(HasAllOutcomes(frames[f]));
     std::size_t num_seconds = 0;
     for (std::size_t i = 0; i < truth.num_slots(); ++i) {
       ASSERT_EQ(frame.ring[i], truth.ring[i]);
@@ -145,6 +148,7 @@ TEST_P(PointFormat, PutsPointsBackIntoTheirSlots) {
       if (std::isnan(truth.x[i])) continue;
       ASSERT_EQ(frame.x[i], truth.x[i]);
       ASSERT_EQ(frame.label[i], truth.label[i]);
+      ASSERT_EQ(frame.outcome[i], truth.outcome[i]);
       ASSERT_EQ(frame.range_m[i], truth.range_m[i]);
       num_seconds += truth.return_index[i];
     }
