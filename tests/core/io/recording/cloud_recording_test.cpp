@@ -11,6 +11,8 @@
 
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/io/cloud/cloud_file.h"
+#include "core/io/recording/cloud_frame.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
 #include "railcast/io/recording.h"
