@@ -191,7 +191,8 @@ void FillForeign(const Cloud& cloud, const SlotPlan& plan, RecordedFrame& record
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (std::isnan(frame.x[i])) values[i] = kNaN;
     }
-    recorded.foreign.push_back({std::string(name), std::move(values)});
+    // Programs and Python have names of UTF-8.
+    recorded.foreign.push_back({ShownLines(name), std::move(values)});
   }
   AddRemark(left_out, recorded.remarks);
 }
@@ -267,7 +268,11 @@ void TakeFromNearOrigin(const Cloud& cloud, const SlotPlan& plan, RecordedFrame&
 
 void RemarkRoundedValues(const Cloud& cloud, const SlotPlan& plan, RecordedFrame& recorded) {
   for (const ForeignField& field : recorded.foreign) {
-    const CloudField& column = *cloud.Find(field.name);
+    const auto found = std::ranges::find_if(cloud.fields, [&](const CloudField& column) {
+      return ShownLines(column.plain_name()) == field.name;
+    });
+    if (found == cloud.fields.end()) continue;
+    const CloudField& column = *found;
     if (SizeOf(column.type) < sizeof(float) || column.type == NumberType::kFloat) continue;
     double largest = 0.0;
     std::uint64_t num = 0;

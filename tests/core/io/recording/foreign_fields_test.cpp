@@ -49,6 +49,16 @@ std::vector<std::string> NamesOf(const RecordedFrame& recorded) {
   return names;
 }
 
+TEST(ForeignFields, HaveNamesOfUtf8) {
+  const RecordedFrame recorded = ReadPly({"double h\xF6"
+                                          "he",
+                                          "float gr\u00fcn"},
+                                         {"1 2 3 16777217 7"});
+  EXPECT_THAT(NamesOf(recorded), ElementsAre("h\\xf6he", "gr\u00fcn"));
+  ASSERT_EQ(recorded.remarks.size(), 1U);
+  EXPECT_EQ(recorded.remarks[0].kind, RemarkKind::kValuesRounded);
+}
+
 TEST(ForeignFields, AreTheNumbersThatAreNoneOfOursInTheirOrder) {
   const RecordedFrame recorded =
       ReadPly({"float scalar_curvature", "float intensity", "short ambient"},
