@@ -197,7 +197,8 @@ bool AreRows(std::string_view bytes, std::size_t num_rows) {
 
 /// Says that the numbers of a file stand in rows; empty if they do not.
 std::string SayRows(std::string_view bytes) {
-  for (const std::size_t num : {4UL, 5UL, 6UL}) {
+  // The most first, for rows of others lie within fewer.
+  for (const std::size_t num : {6UL, 5UL, 4UL}) {
     if (!AreRows(bytes, num)) continue;
     const std::string rows = NumberText(num);
     return "they stand in " + rows +

@@ -214,6 +214,12 @@ std::vector<NameSeries> SplitNames(Names names, const std::vector<std::size_t>& 
   for (std::size_t i = 0; i < num_values; ++i) {
     runs[i] = i == running || (different[i] > 1 && !IsOfSource(names, i, running));
   }
+  // Seconds stand before nanoseconds, also if they are the same in all names.
+  const NameValue& last = names.front().values[running];
+  if (running > 0 && last.written.size() == kNanosecondDigits &&
+      StampOfNumber_ns(names.front().values[running - 1], false)) {
+    runs[running - 1] = true;
+  }
   const auto running_values = [&](std::size_t i) {
     std::vector<NameValue> values;
     for (std::size_t place = 0; place < num_values; ++place) {

@@ -85,7 +85,7 @@ std::optional<std::int64_t> TakeTime_ns(std::string_view& text) {
   constexpr unsigned kFirstYear = 1970;
   constexpr unsigned kLastYear = 2200;
   if (!date.ok() || *year < kFirstYear || *year > kLastYear) return std::nullopt;
-  if (*hour > 23 || *minute > 59 || *second > 60) return std::nullopt;
+  if (*hour > 23 || *minute > 59 || *second > 59) return std::nullopt;
   const std::int64_t fraction_ns = TakeFraction_ns(time_mark == 0, rest);
   if (!rest.empty() && IsDigit(rest.front())) return std::nullopt;
   const std::int64_t zone_ns = TakeZone_ns(rest);

@@ -313,9 +313,9 @@ TEST(KittiReader, TurnsThePointsOfNuScenes) {
   const CloudFile file = ParseKittiColumns("a.bin", bytes, {}, "nuscenes");
   // Stored to the right and forward.
   VisitField(file.cloud, *file.cloud.Find("x"),
-             [&](std::size_t i, auto value) { ASSERT_EQ(value, stored[5 * i + 1]); });
+             [&](std::size_t i, auto x) { ASSERT_EQ(static_cast<float>(x), stored[5 * i + 1]); });
   VisitField(file.cloud, *file.cloud.Find("y"),
-             [&](std::size_t i, auto value) { ASSERT_EQ(value, -stored[5 * i]); });
+             [&](std::size_t i, auto y) { ASSERT_EQ(static_cast<float>(y), -stored[5 * i]); });
   EXPECT_EQ(Rewritten(file, {file.cloud.data, std::vector<std::uint32_t>(640)}).at(0), bytes);
 }
 
