@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/base/pose_numbers.h"
 #include "core/base/text.h"
 
 namespace railcast {
@@ -72,8 +73,8 @@ Transform OpenLabelTransform(const Json& json, const OpenLabelPlace& place) {
 }
 
 Transform OpenLabelPose(const std::vector<double>& numbers, const OpenLabelPlace& place) {
-  const Eigen::Quaterniond turn(numbers[6], numbers[3], numbers[4], numbers[5]);
-  return CheckedTransform(turn.toRotationMatrix(), {numbers[0], numbers[1], numbers[2]}, place);
+  constexpr std::ptrdiff_t kNumbers = 7;
+  return MakePose({numbers.begin(), numbers.begin() + kNumbers}, place.file + ": " + place.pointer);
 }
 
 }  // namespace railcast

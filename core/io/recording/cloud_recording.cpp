@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/pose_numbers.h"
 #include "core/base/text.h"
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/cloud/kitti_names.h"

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/base/error.h"
+#include "core/base/pose_numbers.h"
 #include "core/base/text.h"
 #include "core/base/text_number.h"
 #include "core/io/content_hash.h"
@@ -12,14 +13,6 @@
 #include "core/scenario/archive.h"
 
 namespace railcast {
-namespace {
-
-bool IsUnit(const Eigen::Quaterniond& rotation) {
-  constexpr double kTolerance = 1e-3;
-  return std::abs(rotation.norm() - 1.0) <= kTolerance;
-}
-
-}  // namespace
 
 Eigen::Quaterniond CanonicalRotation(const Transform& transform) {
   Eigen::Quaterniond rotation(transform.linear());
@@ -45,21 +38,6 @@ std::string PoseLine(const PoseRecord& pose) {
     line += NumberText(value);
   }
   return line + "\n";
-}
-
-Transform MakePose(const std::vector<double>& numbers, const std::string& place) {
-  if (numbers.size() != 7) {
-    throw InputError(place + ": a pose must have seven numbers" + Got(numbers.size()));
-  }
-  for (const double number : numbers) {
-    if (!std::isfinite(number)) throw InputError(place + ": a pose must be finite");
-  }
-  const Eigen::Quaterniond turn(numbers[6], numbers[3], numbers[4], numbers[5]);
-  if (!IsUnit(turn)) {
-    throw InputError(place + ": a quaternion must have length 1" + Got(turn.norm()));
-  }
-  return MakeTransform(turn.normalized().toRotationMatrix(),
-                       Vector3(numbers[0], numbers[1], numbers[2]));
 }
 
 void DescribeRotation(Archive& a, Eigen::Quaterniond& rotation) {

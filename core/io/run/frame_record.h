@@ -49,11 +49,6 @@ inline constexpr std::string_view kPosesHeader = "stamp_ns,x,y,z,qx,qy,qz,qw\n";
                                      std::int64_t stamp_ns,
                                      const std::string& place);
 
-/// Makes a pose of seven numbers: x y z qx qy qz qw.
-/// @throws InputError "place: rule" unless there are seven finite numbers and the quaternion has
-///   length 1.
-[[nodiscard]] Transform MakePose(const std::vector<double>& numbers, const std::string& place);
-
 /// Describes a record's key quaternion_xyzw.
 void DescribeRotation(Archive& a, Eigen::Quaterniond& rotation);
 

@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/median.h"
+#include "core/base/pose_numbers.h"
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
 #include "core/base/text_number.h"

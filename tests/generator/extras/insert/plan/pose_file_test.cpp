@@ -91,6 +91,33 @@ TEST(PoseFile, ReadsTheLinesOfTum) {
             "a.txt:2: must be the 8 numbers of a time and a pose, as in TUM's format");
 }
 
+// A quaternion of zeros is no rotation, in any format and wherever it stands.
+TEST(PoseFile, MustHaveQuaternionsOfLength1) {
+  const std::string label = OpenLabelOf(kWorldToBase);
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = label;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  for (const auto& [turn, length] : std::vector<std::pair<std::string, std::string>>{
+           {"0, 0, 0, 0", "0"}, {"0, 0, 0, 0.9", "0.9"}, {"0, 0, 3, 4", "5"}}) {
+    std::string words = turn;
+    std::erase(words, ',');
+    std::string commas = turn;
+    std::erase(commas, ' ');
+    const std::string rule = ": a quaternion must have length 1 (got " + length + ")";
+    EXPECT_EQ(FaultOf("a.tum", "0 0 0 0 0 0 0 1\n0.1 0 0 0 " + words + "\n"), "a.tum:2" + rule);
+    EXPECT_EQ(FaultOf("a.csv", "stamp_ns,x,y,z,qx,qy,qz,qw\n0,0,0,0," + commas + "\n"),
+              "a.csv:2" + rule);
+    EXPECT_EQ(FaultOf("a.json", with("[0, 0, 0, 1]", "[" + turn + "]")),
+              "a.json: /openlabel/coordinate_systems/lidar/pose_wrt_parent" + rule);
+    EXPECT_EQ(FaultOf("a.json", with("[0, 0, -0.7071067811865476,\n        0.7071067811865476]",
+                                     "[" + turn + "]")),
+              "a.json: /openlabel/frames/10/frame_properties/transforms/world_to_base/"
+              "transform_src_to_dst" +
+                  rule);
+  }
+}
+
 TEST(PoseFile, MayHaveAByteOrderMarkOrBeUtf16) {
   EXPECT_EQ(ReadText("poses.csv", "\xEF\xBB\xBF" + std::string(kCsv) + "\r\n").stamps_ns.size(),
             2U);
