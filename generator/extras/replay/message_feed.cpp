@@ -1,6 +1,7 @@
 #include "generator/extras/replay/message_feed.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "core/base/error.h"
@@ -46,6 +47,7 @@ MessageFeed::MessageFeed(const std::filesystem::path& bag,
 void MessageFeed::ChooseTopics(const std::string& wanted) {
   std::vector<std::size_t> chosen;
   std::string names;
+  std::map<std::pair<std::string, std::string>, std::size_t> known;  // By name and type.
   topic_of_.resize(bag_->topics().size());
   for (std::size_t i = 0; i < bag_->topics().size(); ++i) {
     const bag::BagTopic& topic = bag_->topics()[i];
@@ -54,11 +56,10 @@ void MessageFeed::ChooseTopics(const std::string& wanted) {
     if (!IsOfRos(topic) || (!wanted.empty() && FullName(topic.name) != FullName(wanted))) continue;
     chosen.push_back(i);
     // The same topic may be recorded of several nodes.
-    const auto known = std::ranges::find_if(topics_, [&](const dds::TopicSpec& spec) {
-      return spec.name == FullName(topic.name) && spec.type == ros::DdsName(topic.type);
-    });
-    topic_of_[i] = static_cast<std::size_t>(known - topics_.begin());
-    if (known != topics_.end()) continue;
+    const auto [same, is_new] =
+        known.try_emplace({FullName(topic.name), topic.type}, topics_.size());
+    topic_of_[i] = same->second;
+    if (!is_new) continue;
     if (!points_ && HoldsPoints(topic)) points_ = topics_.size();
     topics_.push_back({.name = FullName(topic.name),
                        .type = ros::DdsName(topic.type),

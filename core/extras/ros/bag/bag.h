@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "core/extras/ros/mcap/compression.h"
@@ -30,9 +31,18 @@ struct BagTopic {
   bool operator==(const BagTopic&) const = default;
 };
 
-/// The index of the topic with this one's name, type and encoding, whatever its publishers' hashes
-/// and promises. It is appended if there is none.
-[[nodiscard]] std::size_t IndexOfTopic(const BagTopic& topic, std::vector<BagTopic>& topics);
+/// The topics of a bag: those of one name, type and encoding are one, whatever their publishers'
+/// hashes and promises.
+class TopicList {
+ public:
+  /// Returns the index of a topic. It is appended if there is none like it.
+  std::size_t Add(const BagTopic& topic);
+  [[nodiscard]] const std::vector<BagTopic>& topics() const { return topics_; }
+
+ private:
+  std::vector<BagTopic> topics_;
+  std::map<std::tuple<std::string, std::string, std::string>, std::size_t> indices_;
+};
 
 /// Where a message stands in a bag.
 struct BagPlace {
@@ -48,6 +58,8 @@ struct BagMessage {
   std::int64_t time_ns{};
   std::span<const std::byte> data;
   BagPlace place{};  ///< Of messages that were read.
+  /// Likewise: the id that the file has for the topic; several publishers may have one each.
+  std::uint64_t channel{};
 };
 
 /// A file inside a bag.

@@ -74,11 +74,11 @@ class McapBagReader : public BagReader {
       : name_(name), reader_(file, name) {
     // Channels of several publishers are one topic here.
     for (const auto& [id, channel] : reader_.index().channels) {
-      topic_by_channel_.emplace(id, IndexOfTopic(TopicOf(channel), topics_));
+      topic_by_channel_.emplace(id, topics_.Add(TopicOf(channel)));
     }
   }
 
-  [[nodiscard]] const std::vector<BagTopic>& topics() const override { return topics_; }
+  [[nodiscard]] const std::vector<BagTopic>& topics() const override { return topics_.topics(); }
 
   [[nodiscard]] std::optional<std::int64_t> FindStart_ns() override {
     const mcap::McapStatistics& statistics = reader_.index().statistics;
@@ -87,9 +87,10 @@ class McapBagReader : public BagReader {
   }
 
   void Select(const std::vector<std::size_t>& wanted) override {
+    const std::set<std::size_t> chosen(wanted.begin(), wanted.end());
     std::set<std::uint16_t> channels;
     for (const auto& [id, topic] : topic_by_channel_) {
-      if (std::ranges::find(wanted, topic) != wanted.end()) channels.insert(id);
+      if (chosen.contains(topic)) channels.insert(id);
     }
     reader_.Select(std::move(channels));
   }
@@ -100,7 +101,8 @@ class McapBagReader : public BagReader {
     return BagMessage{topic_by_channel_.at(message->channel_id),
                       CheckedTime_ns(message->log_time),
                       message->data,
-                      {.in_part = reader_.place()}};
+                      {.in_part = reader_.place()},
+                      message->channel_id};
   }
 
   [[nodiscard]] std::vector<BagAttachment> ReadAttachments() override {
@@ -152,7 +154,7 @@ class McapBagReader : public BagReader {
 
   std::string name_;
   mcap::McapReader reader_;
-  std::vector<BagTopic> topics_;
+  TopicList topics_;
   std::map<std::uint16_t, std::size_t> topic_by_channel_;
 };
 

@@ -46,14 +46,13 @@ class MergedReader : public BagReader {
                    .start_ns = {},
                    .next = {}};
       part.start_ns = part.reader->FindStart_ns();
-      for (const BagTopic& topic : part.reader->topics())
-        part.topics.push_back(IndexOfTopic(topic, topics_));
+      for (const BagTopic& topic : part.reader->topics()) part.topics.push_back(topics_.Add(topic));
       parts_.push_back(std::move(part));
     }
     std::ranges::stable_sort(parts_, {}, &BagPart::start_ns);
   }
 
-  [[nodiscard]] const std::vector<BagTopic>& topics() const override { return topics_; }
+  [[nodiscard]] const std::vector<BagTopic>& topics() const override { return topics_.topics(); }
 
   [[nodiscard]] std::optional<std::int64_t> FindStart_ns() override {
     // Parts without messages come first.
@@ -63,10 +62,11 @@ class MergedReader : public BagReader {
   }
 
   void Select(const std::vector<std::size_t>& wanted) override {
+    const std::set<std::size_t> chosen(wanted.begin(), wanted.end());
     for (BagPart& part : parts_) {
       std::vector<std::size_t> in_part;
       for (std::size_t i = 0; i < part.topics.size(); ++i) {
-        if (std::ranges::find(wanted, part.topics[i]) != wanted.end()) in_part.push_back(i);
+        if (chosen.contains(part.topics[i])) in_part.push_back(i);
       }
       part.reader->Select(in_part);
       part.is_begun = false;
@@ -89,7 +89,8 @@ class MergedReader : public BagReader {
     return BagMessage{first->topics[first->next->topic],
                       first->next->time_ns,
                       first->next->data,
-                      {.part = first->number, .in_part = first->next->place.in_part}};
+                      {.part = first->number, .in_part = first->next->place.in_part},
+                      first->next->channel};
   }
 
   [[nodiscard]] std::vector<BagAttachment> ReadAttachments() override {
@@ -113,7 +114,7 @@ class MergedReader : public BagReader {
  private:
   std::vector<Remark> remarks_;
   std::vector<BagPart> parts_;
-  std::vector<BagTopic> topics_;
+  TopicList topics_;
   BagPart* last_ = nullptr;  ///< The part of which the last message was returned.
 };
 
@@ -343,13 +344,11 @@ std::unique_ptr<BagCopy> CopyBag(const std::filesystem::path& bag,
   return CopyBagFile(bag, copy, topic);
 }
 
-std::size_t IndexOfTopic(const BagTopic& topic, std::vector<BagTopic>& topics) {
-  const auto known = std::ranges::find_if(topics, [&](const BagTopic& other) {
-    return other.name == topic.name && other.type == topic.type && other.encoding == topic.encoding;
-  });
-  const auto index = static_cast<std::size_t>(known - topics.begin());
-  if (known == topics.end()) topics.push_back(topic);
-  return index;
+std::size_t TopicList::Add(const BagTopic& topic) {
+  const auto [known, is_new] =
+      indices_.try_emplace({topic.name, topic.type, topic.encoding}, topics_.size());
+  if (is_new) topics_.push_back(topic);
+  return known->second;
 }
 
 std::string FullTypeName(std::string type, std::string_view encoding) {

@@ -133,7 +133,7 @@ class SqliteBagReader : public BagReader {
     Query();
   }
 
-  [[nodiscard]] const std::vector<BagTopic>& topics() const override { return topics_; }
+  [[nodiscard]] const std::vector<BagTopic>& topics() const override { return topics_.topics(); }
 
   [[nodiscard]] std::optional<std::int64_t> FindStart_ns() override {
     SqliteStatement first(*database_, "SELECT timestamp FROM messages ORDER BY timestamp LIMIT 1");
@@ -178,7 +178,8 @@ class SqliteBagReader : public BagReader {
     return {topic,
             list_->Integer(2),
             data_->Blob(0),
-            {.in_part = {.record = static_cast<std::uint64_t>(id)}}};
+            {.in_part = {.record = static_cast<std::uint64_t>(id)}},
+            static_cast<std::uint64_t>(list_->Integer(1))};
   }
 
   void ReadTopics() {
@@ -201,8 +202,7 @@ class SqliteBagReader : public BagReader {
       topic.type = FullTypeName(list.Text(2), topic.encoding);
       const auto definition = definitions.find(list.Text(2));
       if (definition != definitions.end()) topic.definition = definition->second;
-      topic_by_id_.emplace(list.Integer(0), topics_.size());
-      topics_.push_back(std::move(topic));
+      topic_by_id_.emplace(list.Integer(0), topics_.Add(topic));
     }
   }
 
@@ -216,7 +216,7 @@ class SqliteBagReader : public BagReader {
 
   std::unique_ptr<SqliteDatabase> database_;
   std::vector<Remark> remarks_;
-  std::vector<BagTopic> topics_;
+  TopicList topics_;
   std::map<std::int64_t, std::size_t> topic_by_id_;
   std::optional<std::set<std::size_t>> wanted_;  ///< Topics; absent = all.
   std::optional<SqliteStatement> list_;

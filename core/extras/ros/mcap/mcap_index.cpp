@@ -101,6 +101,25 @@ bool IsComplete(const McapIndex& index) {
          std::ranges::all_of(index.chunks, knows_channels);
 }
 
+/// Whether the data hold as many records as the index names. Where a writer left out one of them,
+/// its statistics may do so, too. Only the heads of records are read.
+bool HasAllRecords(const ByteFile& file, const McapIndex& index) {
+  std::size_t num_chunks = 0;
+  std::size_t num_attachments = 0;
+  std::size_t num_metadata = 0;
+  RecordScan scan(file);
+  for (auto place = scan.Next(); place && place->opcode != McapOpcode::kDataEnd;
+       place = scan.Next()) {
+    // A file with chunks has no index of messages beside them.
+    if (place->opcode == McapOpcode::kMessage) return false;
+    num_chunks += place->opcode == McapOpcode::kChunk ? 1 : 0;
+    num_attachments += place->opcode == McapOpcode::kAttachment ? 1 : 0;
+    num_metadata += place->opcode == McapOpcode::kMetadata ? 1 : 0;
+  }
+  return num_chunks == index.chunks.size() && num_attachments == index.attachments.size() &&
+         num_metadata == index.metadata.size();
+}
+
 /// Records stand behind each other in the file: each has one entry of the index.
 void CheckAreApart(const McapIndex& index, std::uint64_t data_end) {
   std::vector<std::pair<std::uint64_t, std::uint64_t>> places;
@@ -356,7 +375,7 @@ ScannedFile ScanUndamaged(const ByteFile& file) {
 McapIndex ReadIndex(const ByteFile& file) {
   McapHeader header = ReadHeader(file);
   auto index = ReadSummary(file);
-  if (!index || !IsComplete(*index)) {
+  if (!index || !IsComplete(*index) || !HasAllRecords(file, *index)) {
     ScannedFile scanned = ScanWhole(file, file.size());
     index = std::move(scanned.index);
     index->cut = scanned.is_whole ? FaultOfEnd(file, scanned.size) : CutAt(file, scanned.size);

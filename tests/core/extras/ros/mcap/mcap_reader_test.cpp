@@ -108,6 +108,20 @@ TEST_F(McapFile, GivesTheSameWithoutSummaryAndWithoutChunks) {
             kInOrder);
 }
 
+// As some writers leave it out that were interrupted.
+TEST_F(McapFile, GivesMessagesOfChunksThatItsSummaryLeavesOut) {
+  const std::string bytes = MadeFile(kOverlapping, McapCompression::kZstd);
+  for (std::size_t lost = 0; lost < kOverlapping.size(); ++lost) {
+    const std::string without = WithIndex(bytes, [&](McapIndex& index) {
+      index.chunks.erase(index.chunks.begin() + static_cast<std::ptrdiff_t>(lost));
+      --index.statistics.chunk_count;
+      index.statistics.message_count -= kOverlapping[lost].size();
+      index.statistics.channel_message_counts.at(1) -= kOverlapping[lost].size();
+    });
+    EXPECT_EQ(Read(without), kInOrder) << lost;
+  }
+}
+
 // More than the reader holds: chunks are read again.
 TEST_F(McapFile, ReadsChunksAgainThatItCouldNotHold) {
   constexpr std::size_t kHeld_bytes = 4096;
