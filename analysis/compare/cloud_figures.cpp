@@ -190,7 +190,7 @@ double BinnedCloud::Bin::MeanVelocity_mps() const {
 
 BinnedCloud BinnedByRange(const ComparedCloud& cloud) {
   BinnedCloud binned = EmptyBins();
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
+  for (std::size_t i = 0; i < cloud.range_m.size(); ++i) {
     const auto found = RangeBins().Find(static_cast<double>(cloud.range_m[i]));
     if (!found) continue;
     BinnedCloud::Bin& bin = binned.bins[*found];

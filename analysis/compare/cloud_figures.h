@@ -19,7 +19,7 @@ namespace railcast {
 /// left out.
 struct ComparedCloud {
   std::vector<Eigen::Vector3f> points_m;
-  std::vector<float> range_m;        ///< Distance from the sensor's origin.
+  std::vector<float> range_m;        ///< Distance from the sensor's origin; empty if unknown.
   std::vector<float> intensity;      ///< NaN where the intensity is not finite; empty if unknown.
   std::vector<std::uint16_t> rings;  ///< Empty if unknown.
   /// Along the beams; NaN where a point has none; empty if unknown.
@@ -35,7 +35,7 @@ struct ComparedCloud {
     const float x = frame.x[slot], y = frame.y[slot], z = frame.z[slot];
     if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) continue;
     cloud.points_m.emplace_back(x, y, z);
-    cloud.range_m.push_back(std::hypot(x, y, z));
+    if (recorded.why_no_ranges.empty()) cloud.range_m.push_back(std::hypot(x, y, z));
     if (recorded.Has("intensity")) cloud.intensity.push_back(frame.intensity[slot]);
     if (recorded.Has("ring")) cloud.rings.push_back(frame.ring[slot]);
     if (recorded.Has("radial_velocity_mps")) {

@@ -56,7 +56,7 @@ LaidCloud LayOnOther(const ComparedCloud& a, const std::string& name_b, Compared
   const Eigen::Isometry3f a_from_b = laid->onto_from_cloud.cast<float>();
   for (std::size_t i = 0; i < b.size(); ++i) {
     b.points_m[i] = a_from_b * b.points_m[i];
-    b.range_m[i] = b.points_m[i].norm();
+    if (!b.range_m.empty()) b.range_m[i] = b.points_m[i].norm();
   }
   return *laid;
 }

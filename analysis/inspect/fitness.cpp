@@ -8,12 +8,9 @@ namespace {
 
 using enum Fitness;
 
-constexpr const char* kMapCoordinates =
-    "its positions are map coordinates, and where the sensor was is not known";
-
 /// What it takes to know where each firing went.
 JobFitness FiringsOf(const RecordingLook& seen, const RecordingInfo& info) {
-  if (!seen.origin_m.isZero()) return {"", kNo, kMapCoordinates};
+  if (!seen.why_no_ranges.empty()) return {"", kNo, seen.why_no_ranges};
   if (info.origin || seen.num_with_beams == seen.num_frames) return {"", kYes, ""};
   if (seen.num_grids == seen.num_frames && seen.sensor.found) {
     const auto guesses = GuessSensor(seen.rings);
@@ -40,7 +37,7 @@ std::string WithPoses(const RecordingLook& seen, const RecordingInfo& info, std:
 JobFitness Insertion(const RecordingLook& seen, const RecordingInfo& info, bool is_weather) {
   JobFitness firings = FiringsOf(seen, info);
   firings.job = is_weather ? "weather" : "insert";
-  if (firings.fitness == kNo && is_weather) return firings;
+  if (firings.fitness == kNo && (is_weather || !seen.why_no_ranges.empty())) return firings;
   if (firings.fitness == kNo) {
     firings.fitness = kWithOption;
     firings.why = "--points-alone, since " + firings.why;
@@ -51,6 +48,9 @@ JobFitness Insertion(const RecordingLook& seen, const RecordingInfo& info, bool 
 }
 
 JobFitness Statistics(const RecordingLook& seen) {
+  if (!seen.why_no_ranges.empty()) {
+    return {"stats", kYes, "without dropout and figures by range and ring: " + seen.why_no_ranges};
+  }
   if (seen.num_grids == seen.num_frames) return {"stats", kYes, ""};
   return {"stats", kYes, "without dropout and figures by ring: " + seen.why_no_grid};
 }
@@ -66,7 +66,7 @@ JobFitness Evaluation(const RecordingLook& seen, const RecordingInfo& info) {
 }
 
 JobFitness Fit(const RecordingLook& seen, const RecordingInfo& info) {
-  if (!seen.origin_m.isZero()) return {"fit", kNo, kMapCoordinates};
+  if (!seen.why_no_ranges.empty()) return {"fit", kNo, seen.why_no_ranges};
   if (seen.num_grids < seen.num_frames) return {"fit", kNo, seen.why_no_grid};
   if (info.origin) return {"fit", kYes, ""};
   return {"fit", kWithOption, "--scenario SCENARIO with its sensor"};

@@ -88,6 +88,7 @@ void LookAtFrame(const RecordedFrame& recorded, RecordingLook& inspection) {
   inspection.num_with_pose += recorded.has_pose ? 1 : 0;
   inspection.num_with_objects += recorded.objects.empty() ? 0 : 1;
   if (inspection.why_no_grid.empty()) inspection.why_no_grid = recorded.why_no_grid;
+  if (inspection.why_no_ranges.empty()) inspection.why_no_ranges = recorded.why_no_ranges;
   for (const std::string& field : recorded.fields) ++inspection.fields[field];
   if (inspection.num_frames == 1) {
     inspection.origin_m = recorded.origin_m;

@@ -59,6 +59,7 @@ struct RecordingLook {
   std::map<std::string, std::size_t> fields;  ///< Number of frames that have it.
   std::vector<std::string> foreign;           ///< Fields of others, of the first frame.
   Vector3 origin_m = Vector3::Zero();         ///< Of the first frame.
+  std::string why_no_ranges;                  ///< Of the first frame that has none.
 
   std::vector<std::int64_t> stamps_ns;
   std::vector<double> durations_s;           ///< Of frames whose points have times.

@@ -70,13 +70,11 @@ Section SensorSection(const RecordingLook& seen, const RecordingInfo& info) {
     findings.Add("sensor", info.scenario->lidar.name, "as its scenario says");
   } else if (info.kind.starts_with(kOfPackets)) {
     findings.Add("sensor", info.kind.substr(kOfPackets.size()), "as its packets say");
-  } else if (!seen.origin_m.isZero() || guesses.empty() ||
-             guesses.front().error_deg > kLikelyGuess_deg) {
-    const bool is_found = seen.sensor.found && seen.origin_m.isZero();
-    findings.Add("sensor", is_found ? "no preset" : "unknown",
-                 is_found                  ? seen.sensor.found->Text()
-                 : !seen.origin_m.isZero() ? "its place is not known"
-                                           : seen.sensor.why_not);
+  } else if (!seen.why_no_ranges.empty()) {
+    findings.Add("sensor", "unknown", "its place is not known");
+  } else if (guesses.empty() || guesses.front().error_deg > kLikelyGuess_deg) {
+    findings.Add("sensor", seen.sensor.found ? "no preset" : "unknown",
+                 seen.sensor.found ? seen.sensor.found->Text() : seen.sensor.why_not);
   } else {
     const SensorGuess& best = guesses.front();
     findings.Add("sensor", best.name,
@@ -205,14 +203,18 @@ std::string ScaleOf(const InspectedValues& intensity, const RecordingInfo& info)
 Section ValuesSection(const RecordingLook& seen, const RecordingInfo& info) {
   Findings findings("values", "Values");
   findings.Count("points", seen.num_points);
-  const bool is_in_map = !seen.origin_m.isZero();
+  const bool is_in_map = !seen.why_no_ranges.empty();
   const auto add_range = [&](const std::string& what, double range_m) {
     findings.Add(what, std::isnan(range_m) ? "too few points" : ShortText(range_m) + " m");
   };
-  if (!is_in_map) add_range("range, median", seen.range_m.Median().value);
-  if (!is_in_map) add_range("range, 99.9 % are below", seen.range_m.Quantile(0.999).value);
-  findings.Add("nearer than 0.5 m", ShareText(seen.num_near, seen.num_points),
-               "dirt on the window, the vehicle itself, or noise");
+  if (is_in_map) {
+    findings.Add("ranges", "unknown", seen.why_no_ranges);
+  } else {
+    add_range("range, median", seen.range_m.Median().value);
+    add_range("range, 99.9 % are below", seen.range_m.Quantile(0.999).value);
+    findings.Add("nearer than 0.5 m", ShareText(seen.num_near, seen.num_points),
+                 "dirt on the window, the vehicle itself, or noise");
+  }
   const InspectedValues& intensity = seen.intensity;
   if (intensity.num > 0) {
     findings.Add("intensity", ShortText(intensity.least) + " to " + ShortText(intensity.highest),
@@ -299,7 +301,7 @@ Report MakeInspectionReport(const RecordingLook& inspection,
   report.facts.emplace_back("Source", ShownPath(info.source) + " (" + info.kind + ")");
   report.sections = {JobsSection(JobsOf(inspection, info)), SensorSection(inspection, info),
                      TimesSection(inspection)};
-  if (!inspection.rings.empty() && inspection.origin_m.isZero()) {
+  if (!inspection.rings.empty() && inspection.why_no_ranges.empty()) {
     report.sections.push_back(RingsSection(inspection));
   }
   report.sections.push_back(ValuesSection(inspection, info));

@@ -37,6 +37,7 @@ void Coverage::Add(const RecordedFrame& recorded, const ScanTable* scan) {
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     if (!std::isfinite(frame.range_m[slot])) continue;
     ++num_points;
+    if (!recorded.why_no_ranges.empty()) continue;
     const double azimuth_deg = DegFromRad(
         std::atan2(static_cast<double>(frame.y[slot]), static_cast<double>(frame.x[slot])));
     const auto sector = static_cast<std::size_t>((azimuth_deg + 180.0) / kSector_deg);
@@ -45,7 +46,7 @@ void Coverage::Add(const RecordedFrame& recorded, const ScanTable* scan) {
   num_points_ += num_points;
   points_.Add(static_cast<double>(num_points));
   cells_.Add(static_cast<double>(CountCells(frame)));
-  if (!recorded.is_grid) return;
+  if (!recorded.is_grid || !recorded.why_no_ranges.empty()) return;
   if (rings_.size() < frame.rows) rings_.resize(frame.rows);
   for (std::size_t row = 0; row < frame.rows; ++row) {
     Ring& ring = rings_[row];
@@ -83,6 +84,7 @@ Section Coverage::MakeSection() const {
     const Estimate rate = PoissonRate(sectors_[i], static_cast<double>(num_frames()));
     if (sectors_[i] > 0) sectors.rows.push_back({middle_deg, rate});
   }
+  if (sectors.rows.empty()) return section;
   section.charts.push_back(ChartOfTable(kStatsWords, "azimuth", sectors));
   section.tables.push_back(std::move(sectors));
   return section;

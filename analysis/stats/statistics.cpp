@@ -51,13 +51,21 @@ Statistics MeasurePair(const PairOfReaders& readers,
   const auto second_scan = ScanTableOf(second, fixed);
   statistics.Add(second, PointerTo(second_scan));
   if (track != nullptr) statistics.gauge.Add(second, *track);
-  statistics.temporal_noise.Add(first, second, PointerTo(first_scan), PointerTo(second_scan));
+  if (first.why_no_ranges.empty() && second.why_no_ranges.empty()) {
+    statistics.temporal_noise.Add(first, second, PointerTo(first_scan), PointerTo(second_scan));
+  }
   return statistics;
 }
 
 }  // namespace
 
 void Statistics::Add(const RecordedFrame& recorded, const ScanTable* scan) {
+  if (!recorded.why_no_ranges.empty()) {
+    // What needs to know where the sensor was is left out, as a remark says.
+    coverage.Add(recorded, nullptr);
+    classes.Add(recorded);
+    return;
+  }
   const std::vector<PlanePatch> patches = FindPlanePatches(recorded, scan);
   dropout.Add(recorded);
   holes.Add(recorded);

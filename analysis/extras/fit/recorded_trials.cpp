@@ -14,6 +14,7 @@
 #include "analysis/stats/range_noise.h"
 #include "core/io/recording/column_finder.h"
 #include "core/io/recording/firing_truth.h"
+#include "core/io/recording/plausibility.h"
 
 namespace railcast {
 namespace {
@@ -153,6 +154,7 @@ void RecordedTrials::Add(const RecordedTrials& frame) {
 }
 
 RecordedTrials TakeTrials(const RecordedFrame& recorded, const RecordedFrame* next) {
+  NeedRanges(recorded);
   RecordedTrials trials;
   trials.num_frames = 1;
   std::optional<ScanTable> scan;

@@ -39,7 +39,11 @@ enum class RemarkKind : std::uint8_t {
   kTimesRelative,
   kPosesOverturned,
   kPosesBridged,
+  kPosesJumped,
+  kPosesUnknown,
   kTransformsLeftOut,
+  kTransformsInvalid,
+  kTransformsElsewhere,
   kUnitsAssumed,
   kFieldsLeftOut,
   kFilesLeftOut,
@@ -64,8 +68,11 @@ enum class RemarkKind : std::uint8_t {
   kPlacesFar,
   // Recordings as a whole.
   kRangesDiffer,
+  kRangesUnknown,
   kLabelsMissing,
   kClocksDiffer,
+  kClocksShifted,
+  kSpansOverlap,
 };
 
 /// The name and the texts of a kind of remark.

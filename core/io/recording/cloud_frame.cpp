@@ -169,15 +169,23 @@ std::optional<double> FirstTimeIn_ns(const Cloud& cloud) {
   return times ? std::optional(times->first_ns) : std::nullopt;
 }
 
-RecordedFrame MakeCloudFrame(const Cloud& cloud, const std::string& name) {
+RecordedFrame MakeCloudFrame(const Cloud& cloud,
+                             const std::string& name,
+                             const std::string& why_no_ranges) {
   RecordedFrame recorded;
   recorded.name = name;
+  recorded.why_no_ranges = why_no_ranges;
   for (const char* axis : {"x", "y", "z"}) (void)NeedFieldOf(cloud, axis, name);
   recorded.remarks = CheckPositions(cloud, name);
   const std::string fault = FaultOfIntensities(cloud);
   if (!fault.empty()) throw InputError(name + ": " + fault);
-  const SlotPlan plan = PlanOfCloud(cloud, name);
+  const SlotPlan plan =
+      why_no_ranges.empty() ? PlanOfCloud(cloud, name) : LoosePlan(cloud, why_no_ranges);
   FillFrame(cloud, plan, recorded);
+  if (why_no_ranges.empty() && !recorded.origin_m.isZero()) {
+    recorded.why_no_ranges =
+        "its positions are map coordinates, and where the sensor was is not known";
+  }
   if (!recorded.Has("time_ns")) FillForeignTime(cloud, plan, recorded);
   RemarkRoundedValues(cloud, plan, recorded);
   const std::vector<std::uint32_t>& times_ns = recorded.frame.time_ns;

@@ -22,9 +22,12 @@ namespace railcast {
 /// many nanoseconds.
 ///
 /// @param name Names the frame in messages.
+/// @param why_no_ranges As in RecordedFrame; unless it is empty, the frame is not a grid.
 /// @throws InputError with one line if x, y or z is missing, the positions cannot be metres
 ///   (CheckPositions()), a value does not fit its field, or two points claim the same slot.
-[[nodiscard]] RecordedFrame MakeCloudFrame(const Cloud& cloud, const std::string& name);
+[[nodiscard]] RecordedFrame MakeCloudFrame(const Cloud& cloud,
+                                           const std::string& name,
+                                           const std::string& why_no_ranges = {});
 
 /// The column of times of a cloud that has no time_ns.
 struct TimeColumn {

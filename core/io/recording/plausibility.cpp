@@ -283,7 +283,7 @@ std::string FaultOfIntensities(const Cloud& cloud) {
 
 void RemarkOtherRanges(RecordedFrame& recorded) {
   constexpr float kMost_m = 1.0F;  // Beams leave nearer to the origin.
-  if (!recorded.origin_m.isZero()) return;
+  if (!recorded.why_no_ranges.empty()) return;
   const Frame& frame = recorded.frame;
   Remark remark{.kind = RemarkKind::kRangesDiffer, .place = recorded.name, .number = 0};
   std::size_t num = 0;
@@ -302,11 +302,16 @@ void RemarkOtherRanges(RecordedFrame& recorded) {
   AddRemark(remark, recorded.remarks);
 }
 
+void NeedRanges(const RecordedFrame& recorded) {
+  if (recorded.why_no_ranges.empty()) return;
+  throw InputError(recorded.name +
+                   ": must be in the axes of its sensor: " + recorded.why_no_ranges);
+}
+
 std::optional<Remark> CheckRanges(const RecordedFrame& recorded,
                                   const RecordingInfo& info,
                                   double range_max_m) {
-  // In a grid, the sensor's place is not known.
-  if (info.origin || !recorded.origin_m.isZero()) return std::nullopt;
+  if (info.origin || !recorded.why_no_ranges.empty()) return std::nullopt;
   std::size_t num = 0;
   std::size_t num_far = 0;
   float farthest_m = 0.0F;

@@ -44,6 +44,9 @@ void LeaveOutUnlikelyTimes(RecordedFrame& recorded);
 /// @throws InputError as CheckRanges() does.
 void CheckUnit(RecordedFrame& recorded);
 
+/// @throws InputError "NAME: rule: why" unless it is known where the sensor was among the points.
+void NeedRanges(const RecordedFrame& recorded);
+
 /// Tells if more than 1 % of the points have a stored range more than 1 m from their distance to
 /// the origin, as when points were moved behind the sensor.
 void RemarkOtherRanges(RecordedFrame& recorded);

@@ -99,6 +99,12 @@ class RemarkingRecording : public Recording {
     if (!read) return std::nullopt;
     return [read = std::move(*read), remarks = info().remarks] {
       RecordedFrame recorded = read();
+      if (!recorded.why_no_ranges.empty()) {
+        AddRemark({.kind = RemarkKind::kRangesUnknown,
+                   .place = recorded.name,
+                   .detail = recorded.why_no_ranges},
+                  recorded.remarks);
+      }
       // Those of the recording as a whole come first.
       for (const Remark& remark : recorded.remarks) remarks->Add(remark, recorded.frame.index + 1U);
       recorded.remarks.clear();

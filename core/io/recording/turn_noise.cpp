@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/io/recording/column_finder.h"
+#include "core/io/recording/plausibility.h"
 #include "core/io/recording/surface_point.h"
 
 namespace railcast {
@@ -186,6 +187,7 @@ std::vector<RecordedFrame> WholeTurns(Recording& recording, std::size_t most_fra
     const auto read = recording.Next();
     if (!read) break;
     turns.push_back((*read)());
+    NeedRanges(turns.back());
     most = std::max(most, turns.back().frame.columns);
   }
   std::erase_if(turns, [&](const RecordedFrame& turn) {

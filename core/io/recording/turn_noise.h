@@ -22,6 +22,7 @@ namespace railcast {
 
 /// The turns of a recording that are whole: those of at least 0.9 of the most columns.
 /// @param most_frames Frames that are read at most.
+/// @throws InputError as NeedRanges().
 [[nodiscard]] std::vector<RecordedFrame> WholeTurns(
     Recording& recording, std::size_t most_frames = std::numeric_limits<std::size_t>::max());
 

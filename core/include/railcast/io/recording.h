@@ -91,6 +91,9 @@ struct RecordedFrame {
   std::vector<std::uint32_t> slot_of_entry{};
   /// Why the frame is not a grid, as a clause: "it has no ...". Empty if it is one.
   std::string why_no_grid{};
+  /// Why it is not known where the sensor was among the points, so that range_m, azimuths and
+  /// elevations are not those of beams, as a clause. Empty if it was at their origin.
+  std::string why_no_ranges{};
   /// Captures only, null for others: the beam of a cell, from its packet and the sensor's table of
   /// angles, whether or not anything returned.
   std::function<RecordedBeam(std::uint32_t row, std::uint32_t column)> beam_of{};

@@ -11,6 +11,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/io/cloud/scan_motion.h"
+#include "core/io/recording/plausibility.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/scan/firing.h"
 #include "core/scan/spinning_pattern.h"
@@ -234,6 +235,7 @@ FiringFinder::FiringFinder(const RecordingInfo& info,
 FiringFinder::~FiringFinder() = default;
 
 RecordedFirings FiringFinder::Find(RecordedFrame recorded) const {
+  NeedRanges(recorded);
   const std::string place = recorded.name + ": its firings cannot be found: ";
   if (!parts_->may_use_points_alone) {
     return AtPlace(place, [&] { return parts_->Find(recorded); });
