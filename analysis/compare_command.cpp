@@ -204,6 +204,9 @@ void AddCompare(ProgramOptions& app, ProgramCommand& command) {
     if (is_ablation && !options->choice.topic.empty()) {
       FailUsage("--topic", "applies to two recordings only");
     }
+    if (is_ablation && !options->choice.frame_id.empty()) {
+      FailUsage("--frame-id", "applies to two recordings only");
+    }
     if (is_ablation && !options->choice.kitti_columns.empty()) {
       FailUsage("--kitti-columns", "applies to two recordings only");
     }

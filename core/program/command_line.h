@@ -106,7 +106,7 @@ inline Option AddThreads(ProgramOptions& command,
 /// Adds the option --isa.
 void AddIsa(ProgramOptions& command, std::string& isa);
 
-/// Adds the options --topic and --kitti-columns, for WithChoice().
+/// Adds the options --topic, --frame-id and --kitti-columns, for WithChoice().
 inline void AddSourceChoice(ProgramOptions& command, SourceChoice& choice) {
   command
       .AddOption("--kitti-columns", choice.kitti_columns,
@@ -118,6 +118,11 @@ inline void AddSourceChoice(ProgramOptions& command, SourceChoice& choice) {
       .AddOption("--topic", choice.topic,
                  "Topic to read of sources that are bags of ROS 2; needed only where a bag has "
                  "several with points")
+      .Check(NonEmpty());
+  command
+      .AddOption("--frame-id", choice.frame_id,
+                 "frame_id of the clouds or packets to read of a topic; needed only where it has "
+                 "those of several sensors. Where these share one, frame_id#channel")
       .Check(NonEmpty());
 }
 

@@ -40,7 +40,7 @@ namespace railcast {
 [[nodiscard]] inline std::filesystem::path CaptureOfHesaiBag(const std::string& name,
                                                              const TemporaryDirectory& folder) {
   Datagrams datagrams;
-  const auto packets = FindBagPackets(HesaiBag(name), "")->open();
+  const auto packets = FindBagPackets({HesaiBag(name)})->open();
   while (const auto packet = packets->Next()) AddDatagram(packet->payload, datagrams);
   return WriteDatagrams(folder.path() / (name + ".pcap"), datagrams);
 }

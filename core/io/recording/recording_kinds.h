@@ -12,6 +12,8 @@ namespace railcast {
 
 /// Stands between the path of a bag and the name of one of its topics.
 inline constexpr std::string_view kTopicMark = ":/";
+/// Stands between the name of a topic and the frame_id of one of its sensors.
+inline constexpr char kSeriesMark = '#';
 
 /// Whether a file's extension is that of a cloud: .pcd, .ply, .bin (KITTI's) or .las, in any case.
 [[nodiscard]] bool IsCloudFile(const std::filesystem::path& file);

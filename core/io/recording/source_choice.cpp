@@ -31,6 +31,30 @@ void UseTopic(const std::string& topic, std::vector<std::filesystem::path>& sour
       ShownPath(sources.front()) + ")");
 }
 
+/// Whether a source is a bag, with or without a topic behind it.
+bool IsOfBag(const std::filesystem::path& source) {
+  const std::string& text = source.native();
+  for (std::size_t mark = text.find(kTopicMark);; mark = text.find(kTopicMark, mark + 1)) {
+    if (IsBagOfTopics(text.substr(0, mark))) return true;
+    if (mark == std::string::npos) return false;
+  }
+}
+
+void UseFrameId(const std::string& frame_id, std::vector<std::filesystem::path>& sources) {
+  std::size_t num_bags = 0;
+  for (std::filesystem::path& source : sources) {
+    if (!IsOfBag(source)) continue;
+    if (IsBagOfTopics(source)) source += kTopicMark;  // Of its only topic.
+    source += kSeriesMark + frame_id;
+    ++num_bags;
+  }
+  if (num_bags > 0) return;
+  throw InputError(
+      "--frame-id: must come with a bag of ROS 2, .mcap, .db3 or a directory of them "
+      "(got " +
+      ShownPath(sources.front()) + ")");
+}
+
 void UseColumns(const std::string& columns, std::vector<std::filesystem::path>& sources) {
   if (!IsKittiColumns(columns)) {
     throw InputError("--kitti-columns: must be 3 to 16, nuscenes, waymo or float64 (got " +
@@ -68,6 +92,7 @@ void UseSensor(const std::string& sensor, std::vector<std::filesystem::path>& so
 std::vector<std::filesystem::path> WithChoice(std::vector<std::filesystem::path> sources,
                                               const SourceChoice& choice) {
   if (!choice.topic.empty()) UseTopic(choice.topic, sources);
+  if (!choice.frame_id.empty()) UseFrameId(choice.frame_id, sources);
   if (!choice.kitti_columns.empty()) UseColumns(choice.kitti_columns, sources);
   if (!choice.sensor.empty()) UseSensor(choice.sensor, sources);
   return sources;

@@ -13,6 +13,7 @@ namespace railcast {
 /// What users say of recordings that do not say it themselves; empty: nothing.
 struct SourceChoice {
   std::string topic{};          ///< Of bags.
+  std::string frame_id{};       ///< Of a topic of bags.
   std::string kitti_columns{};  ///< Of .bin files, as IsKittiColumns().
   std::string sensor{};         ///< Of captures, as ParseSender().
 };

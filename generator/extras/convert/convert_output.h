@@ -50,6 +50,7 @@ class SourceFrames {
   KittiPoses kitti_;
   std::size_t next_ = 0;
   std::unique_ptr<bag::BagReader> bag_;  ///< Of clouds in messages.
+  std::string bag_series_;
 };
 
 /// What is known of the frames that are written before the first of them is.

@@ -4,6 +4,7 @@
 #include "core/base/text.h"
 #include "core/extras/ros/messages/cdr.h"
 #include "core/extras/ros/recording/bag_recording.h"
+#include "core/extras/ros/recording/bag_series.h"
 #include "core/extras/ros/recording/cloud_message.h"
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/field_layout.h"
@@ -31,11 +32,9 @@ std::vector<fs::path> CloudsOf(const fs::path& clouds) {
 }
 
 /// The reader of the clouds in a bag's topic; null if they are none of PointCloud2.
-std::unique_ptr<bag::BagReader> CloudMessagesOf(const fs::path& recording) {
-  const auto source = FindBag(recording);
-  if (!source) return nullptr;
-  auto bag = bag::OpenBag(source->bag);
-  const std::size_t topic = PickTopic(bag->topics(), source->bag, source->topic);
+std::unique_ptr<bag::BagReader> CloudMessagesOf(const BagSource& source) {
+  auto bag = bag::OpenBag(source.bag);
+  const std::size_t topic = PickTopic(bag->topics(), source.bag, source.topic);
   if (bag->topics()[topic].type != ros::PointCloud2::kName) return nullptr;
   bag->Select({topic});
   return bag;
@@ -94,7 +93,10 @@ SourceFrames::SourceFrames(const fs::path& recording) : recording_(OpenRecording
   // Sequences and insertions say more of their points than their clouds do.
   if (info.scenario || info.origin) return;
   if (info.kind == "bag of ROS 2") {
-    bag_ = CloudMessagesOf(recording);
+    if (const auto source = FindBag(recording)) {
+      bag_ = CloudMessagesOf(*source);
+      bag_series_ = source->series;
+    }
     return;
   }
   const auto [clouds, columns] = KittiSourceOf(recording);
@@ -123,7 +125,7 @@ std::optional<std::function<SourceFrame()>> SourceFrames::Next() {
     };
   }
   if (bag_ != nullptr) {
-    const auto message = bag_->Next();
+    const auto message = NextOfSeries(*bag_, bag_series_);
     Check(message.has_value(), "a bag has a message for each frame");
     return [read = std::move(*read), topic = bag_->topics()[message->topic].name,
             data = std::vector<std::byte>(message->data.begin(), message->data.end())] {

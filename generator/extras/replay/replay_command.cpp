@@ -55,7 +55,8 @@ std::filesystem::path SourceOf(const ReplayOptions& options) {
 DatagramPlace FindPackets(const ReplayOptions& options) {
   if (auto capture = FindCapture(SourceOf(options))) return std::move(*capture);
   if (IsBagOfTopics(options.recording)) {
-    if (auto packets = FindBagPackets(options.recording, options.choice.topic)) {
+    const SourceChoice& choice = options.choice;
+    if (auto packets = FindBagPackets({options.recording, choice.topic, choice.frame_id})) {
       return std::move(*packets);
     }
   }

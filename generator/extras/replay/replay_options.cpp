@@ -66,7 +66,8 @@ void CheckFitsKind(const ReplayOptions& options, ReplayKind kind) {
               "is for protocol ros2");
   }
   if (kind == ReplayKind::kMessages) {
-    CheckNone({{"--insert", options.insert.has_value()}},
+    CheckNone({{"--insert", options.insert.has_value()},
+               {"--frame-id", !options.choice.frame_id.empty()}},
               "is for packets and frames; a bag's are sent with --protocol packets, or as frames "
               "with --protocol railcast, or ros2 and --fields");
   }

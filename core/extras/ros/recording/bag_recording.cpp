@@ -13,6 +13,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/extras/ros/messages/cdr.h"
+#include "core/extras/ros/recording/bag_series.h"
 #include "core/extras/ros/recording/cloud_message.h"
 #include "core/extras/ros/recording/message_packets.h"
 #include "core/extras/ros/recording/packet_messages.h"
@@ -48,19 +49,22 @@ CaptureMetadata OusterMetadataBeside(const std::string& packets, bag::BagReader&
 
 class PacketSource : public DatagramSource {
  public:
-  PacketSource(const std::filesystem::path& bag, std::size_t topic, std::string name)
-      : bag_(bag::OpenBag(bag)),
+  PacketSource(const BagSource& bag, std::size_t topic, std::string name)
+      : bag_(bag::OpenBag(bag.bag)),
         packets_of_(FindPacketsOf(bag_->topics().at(topic).type)),
-        name_(std::move(name)) {
+        name_(std::move(name)),
+        series_(bag.series) {
     bag_->Select({topic});
   }
 
   [[nodiscard]] std::optional<CapturedDatagram> Next() override {
     while (next_ == packets_.size()) {
-      const auto message = bag_->Next();
-      if (!message) return std::nullopt;
-      packets_ = AtPlace(name_ + ": message " + NumberText(num_messages_++) + ": ",
-                         [&] { return packets_of_(*message); });
+      const bool is_read = AtPlace(name_ + ": message " + NumberText(num_messages_++) + ": ", [&] {
+        const auto message = NextOfSeries(*bag_, series_);
+        if (message) packets_ = packets_of_(*message);
+        return message.has_value();
+      });
+      if (!is_read) return std::nullopt;
       next_ = 0;
     }
     const MessagePacket& packet = packets_[next_++];
@@ -72,6 +76,7 @@ class PacketSource : public DatagramSource {
   std::unique_ptr<bag::BagReader> bag_;
   PacketsOfMessage packets_of_;
   std::string name_;
+  std::string series_;
   std::size_t num_messages_{};
   std::size_t num_packets_{};
   std::vector<MessagePacket> packets_;  ///< Of the last message.
@@ -80,10 +85,11 @@ class PacketSource : public DatagramSource {
 
 /// @param source As messages and RecordingInfo name the bag.
 DatagramPlace PlaceOfPackets(const std::filesystem::path& source,
-                             const std::filesystem::path& bag,
+                             const BagSource& bag,
                              std::size_t topic,
                              bag::BagReader& reader) {
   const std::string& name = reader.topics()[topic].name;
+  static_cast<void>(ReadHeaders(reader, topic, ShownPath(source) + ": ", bag.series));
   return {.open = [=] { return std::make_unique<PacketSource>(bag, topic, ShownPath(source)); },
           .source = source,
           .beside = AtPlace(ShownPath(source) + ": ",
@@ -142,20 +148,34 @@ void FillStamp(const CloudMessage& message, RecordedFrame& recorded) {
             recorded.remarks);
 }
 
+/// Why there is no pose for a scan, if it is worth a word.
+std::optional<Remark> WhyNoPose(const TfPoses& poses, const Frame& frame) {
+  if (!poses.is_clock_known()) {
+    return Remark{.kind = RemarkKind::kClocksDiffer, .place = {}, .detail = poses.other_clock()};
+  }
+  constexpr std::int64_t kOtherClock_ns = 60 * kNsPerS;
+  const std::int64_t beyond_ns = poses.Beyond_ns(frame.stamp_ns);
+  if (beyond_ns <= kOtherClock_ns) return std::nullopt;
+  return Remark{.kind = RemarkKind::kClocksDiffer,
+                .place = {},
+                .detail = ShortText(double(beyond_ns) / kNsPerS) + " s from them"};
+}
+
 /// Gives the frame its poses, if they are known for the whole scan.
 void FillPoses(const TfPoses& poses, RecordedFrame& recorded) {
   Frame& frame = recorded.frame;
+  const std::int64_t end_ns = frame.stamp_ns + frame.duration_ns;
+  const auto remark = [&](RemarkKind kind, const std::string& detail) {
+    AddRemark({.kind = kind, .place = recorded.name, .detail = detail}, recorded.remarks);
+  };
   const auto begin = poses.At(frame.stamp_ns);
-  const auto end = poses.At(frame.stamp_ns + frame.duration_ns);
+  const auto end = poses.At(end_ns);
   if (!begin || !end) {
-    constexpr std::int64_t kOtherClock_ns = 60 * kNsPerS;
-    const std::int64_t beyond_ns = poses.Beyond_ns(frame.stamp_ns);
-    if (beyond_ns <= kOtherClock_ns) return;
-    AddRemark({.kind = RemarkKind::kClocksDiffer,
-               .place = recorded.name,
-               .detail = ShortText(double(beyond_ns) / kNsPerS) + " s from them"},
-              recorded.remarks);
+    if (const auto why = WhyNoPose(poses, frame)) remark(why->kind, why->detail);
     return;
+  }
+  if (const std::string jump = poses.JumpWithin(frame.stamp_ns, end_ns); !jump.empty()) {
+    return remark(RemarkKind::kPosesJumped, jump);
   }
   constexpr std::uint32_t kStep_ns = 20'000'000;  // As frames of ours.
   std::vector<ScanPose> between;
@@ -168,13 +188,11 @@ void FillPoses(const TfPoses& poses, RecordedFrame& recorded) {
   frame.world_from_sensor_end = *end;
   frame.poses_between = std::move(between);
   recorded.has_pose = true;
-  const std::int64_t bridged_ns = std::max(poses.Bridged_ns(frame.stamp_ns),
-                                           poses.Bridged_ns(frame.stamp_ns + frame.duration_ns));
+  if (!poses.other_clock().empty()) remark(RemarkKind::kClocksShifted, poses.other_clock());
+  const std::int64_t bridged_ns =
+      std::max(poses.Bridged_ns(frame.stamp_ns), poses.Bridged_ns(end_ns));
   if (bridged_ns == 0) return;
-  AddRemark({.kind = RemarkKind::kPosesBridged,
-             .place = recorded.name,
-             .detail = ShortText(double(bridged_ns) / kNsPerS) + " s"},
-            recorded.remarks);
+  remark(RemarkKind::kPosesBridged, ShortText(double(bridged_ns) / kNsPerS) + " s");
 }
 
 /// How the messages of a topic with clouds are read.
@@ -187,53 +205,51 @@ RecordedFrame ReadCloudMessage(std::span<const std::byte> data,
                                const TfPoses& poses) {
   CloudMessage message = AtPlace(name + ": ", [&] { return read(data); });
   for (Remark& remark : message.cloud.remarks) remark.place = name;
-  RecordedFrame recorded = MakeCloudFrame(message.cloud, name);
+  const std::string why_no_ranges =
+      poses.is_fixed() ? "its frame_id " + Quoted(frame_id) +
+                             " is that of a fixed frame, and where the sensor was is not known"
+                       : "";
+  RecordedFrame recorded = MakeCloudFrame(message.cloud, name, why_no_ranges);
   FillStamp(message, recorded);
   RemarkOtherRanges(recorded);
-  if (message.header.frame_id == frame_id) FillPoses(poses, recorded);
+  if (PlainFrame(message.header.frame_id) == frame_id) FillPoses(poses, recorded);
   return recorded;
-}
-
-/// Returns the frame of reference of a topic's first cloud; empty if it has none.
-std::string FrameIdOf(bag::BagReader& bag,
-                      std::size_t topic,
-                      ReadMessage read,
-                      const std::string& name) {
-  bag.Select({topic});
-  const auto message = bag.Next();
-  if (!message) return {};
-  return AtPlace(name + ": message 0: ", [&] { return read(message->data).header.frame_id; });
 }
 
 class CloudTopicRecording : public Recording {
  public:
+  /// @param series As NextOfSeries() takes it.
   CloudTopicRecording(const std::filesystem::path& source,
                       std::unique_ptr<bag::BagReader> bag,
-                      std::size_t topic)
+                      std::size_t topic,
+                      std::string series)
       : bag_(std::move(bag)),
         name_(ShownPath(source)),
+        series_(std::move(series)),
         read_(IsOfLivox(bag_->topics()[topic]) ? &ReadLivox : &ReadCloud2),
-        frame_id_(FrameIdOf(*bag_, topic, read_, name_)),
+        headers_(ReadHeaders(*bag_, topic, name_ + ": ", series_)),
         poses_(AtPlace(name_ + ": ",
-                       [&] { return std::make_shared<const TfPoses>(*bag_, frame_id_); })) {
+                       [&] { return std::make_shared<const TfPoses>(*bag_, headers_); })),
+        overlaps_(std::make_shared<OverlapCheck>(info_.remarks)) {
     info_.source = source;
     info_.kind = "bag of ROS 2";
-    if (poses_->left_out().number > 0) info_.remarks->Add(poses_->left_out());
+    for (const Remark& remark : poses_->remarks()) info_.remarks->Add(remark);
     bag_->Select({topic});
   }
 
   [[nodiscard]] const RecordingInfo& info() const override { return info_; }
 
   [[nodiscard]] std::optional<FrameReader> Next() override {
-    const auto message = bag_->Next();
+    const auto message = NextOfSeries(*bag_, series_);
     if (!message) return std::nullopt;
     auto data =
         std::make_shared<const std::vector<std::byte>>(message->data.begin(), message->data.end());
     const std::uint32_t index = num_frames_++;
     return [data = std::move(data), index, name = name_ + ": message " + NumberText(index),
-            read = read_, frame_id = frame_id_, poses = poses_] {
+            read = read_, frame_id = headers_.frame_id, poses = poses_, overlaps = overlaps_] {
       RecordedFrame recorded = ReadCloudMessage(*data, read, name, frame_id, *poses);
       recorded.frame.index = index;
+      overlaps->Take(recorded);
       return recorded;
     };
   }
@@ -242,9 +258,11 @@ class CloudTopicRecording : public Recording {
   RecordingInfo info_;
   std::unique_ptr<bag::BagReader> bag_;
   std::string name_;
+  std::string series_;
   ReadMessage read_;
-  std::string frame_id_;
+  CloudHeaders headers_;
   std::shared_ptr<const TfPoses> poses_;
+  std::shared_ptr<OverlapCheck> overlaps_;
   std::uint32_t num_frames_{};
 };
 
@@ -259,23 +277,22 @@ FirstPointTime FirstPointTimeOf(std::int64_t stamp_ns, double first_ns, std::uin
   return {offset_ns, offset_ns <= duration_ns && -offset_ns <= (1.0 + kPacket) * duration_ns};
 }
 
-std::optional<DatagramPlace> FindBagPackets(const std::filesystem::path& bag,
-                                            const std::string& topic) {
-  const auto reader = bag::OpenBag(bag);
-  const std::size_t picked = PickTopic(reader->topics(), bag, topic);
+std::optional<DatagramPlace> FindBagPackets(const BagSource& bag) {
+  const auto reader = bag::OpenBag(bag.bag);
+  const std::size_t picked = PickTopic(reader->topics(), bag.bag, bag.topic);
   if (FindPacketsOf(reader->topics()[picked].type) == nullptr) return std::nullopt;
-  return PlaceOfPackets(bag, bag, picked, *reader);
+  return PlaceOfPackets(bag.bag, bag, picked, *reader);
 }
 
 std::unique_ptr<Recording> OpenBagRecording(const std::filesystem::path& source,
-                                            const std::filesystem::path& bag,
-                                            const std::string& topic) {
-  auto reader = bag::OpenBag(bag);
-  const std::size_t picked = PickTopic(reader->topics(), bag, topic);
+                                            const BagSource& bag) {
+  auto reader = bag::OpenBag(bag.bag);
+  const std::size_t picked = PickTopic(reader->topics(), bag.bag, bag.topic);
   const std::vector<Remark> remarks = reader->remarks();
   std::unique_ptr<Recording> recording;
   if (FindPacketsOf(reader->topics()[picked].type) == nullptr) {
-    recording = std::make_unique<CloudTopicRecording>(source, std::move(reader), picked);
+    recording =
+        std::make_unique<CloudTopicRecording>(source, std::move(reader), picked, bag.series);
   } else {
     recording = OpenDatagrams(PlaceOfPackets(source, bag, picked, *reader));
   }

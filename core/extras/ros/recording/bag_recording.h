@@ -13,14 +13,15 @@
 
 namespace railcast {
 
-/// A bag and one of its topics.
+/// A bag, one of its topics and a series of that.
 struct BagSource {
   std::filesystem::path bag;
-  std::string topic{};  ///< Empty: the only one that can be opened.
+  std::string topic{};   ///< Empty: the only one that can be opened.
+  std::string series{};  ///< As NextOfSeries() takes it; empty: the only one.
 };
 
-/// Finds the bag that `source` names, with or without a topic behind it. Returns nothing if it
-/// names none.
+/// Finds the bag that `source` names, with or without a topic and a series behind it:
+/// "run.mcap:/points#front", "run.mcap:/#front". Returns nothing if it names none.
 [[nodiscard]] std::optional<BagSource> FindBag(const std::filesystem::path& source);
 
 /// Returns the index of the topic to open.
@@ -37,17 +38,14 @@ struct BagSource {
 /// transforms say, or the packets of a sensor whose captures can be opened, as ROS drivers record
 /// them.
 /// @param source As messages and RecordingInfo name it: the bag, with the topic if that was given.
-/// @param topic Empty: the only one that can be opened.
 /// @throws InputError with one line that lists the topics if there is no such topic, or if several
-///   are there and none is given.
+///   are there and none is given; likewise the series.
 [[nodiscard]] std::unique_ptr<Recording> OpenBagRecording(const std::filesystem::path& source,
-                                                          const std::filesystem::path& bag,
-                                                          const std::string& topic);
+                                                          const BagSource& bag);
 
 /// Finds the packets of a sensor in a topic of a bag. Returns nothing if the topic holds clouds.
 /// @throws InputError as OpenBagRecording().
-[[nodiscard]] std::optional<DatagramPlace> FindBagPackets(const std::filesystem::path& bag,
-                                                          const std::string& topic);
+[[nodiscard]] std::optional<DatagramPlace> FindBagPackets(const BagSource& bag);
 
 /// Whether the messages of a topic hold points: clouds, or the packets of a sensor.
 [[nodiscard]] bool HoldsPoints(const bag::BagTopic& topic);

@@ -11,12 +11,12 @@ namespace railcast {
 namespace {
 
 std::unique_ptr<Recording> OpenWholeBag(const std::filesystem::path& bag) {
-  return bag::IsBag(bag) ? OpenBagRecording(bag, bag, "") : nullptr;
+  return bag::IsBag(bag) ? OpenBagRecording(bag, {bag}) : nullptr;
 }
 
 std::unique_ptr<Recording> OpenTopicOfBag(const std::filesystem::path& source) {
   const auto found = FindBag(source);
-  return found ? OpenBagRecording(source, found->bag, found->topic) : nullptr;
+  return found ? OpenBagRecording(source, *found) : nullptr;
 }
 
 }  // namespace

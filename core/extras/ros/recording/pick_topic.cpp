@@ -55,7 +55,11 @@ std::optional<BagSource> FindBag(const std::filesystem::path& source) {
   for (std::size_t mark = text.find(kTopicMark); mark != std::string::npos;
        mark = text.find(kTopicMark, mark + 1)) {
     const std::filesystem::path bag = text.substr(0, mark);
-    if (bag::IsBag(bag)) return BagSource{bag, text.substr(mark + 1)};
+    if (!bag::IsBag(bag)) continue;
+    const std::string behind = text.substr(mark + 1);
+    const std::size_t end = std::min(behind.find(kSeriesMark), behind.size());
+    return BagSource{bag, end == 1 ? "" : behind.substr(0, end),
+                     end == behind.size() ? "" : behind.substr(end + 1)};
   }
   return std::nullopt;
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -12,135 +12,211 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/extras/ros/messages/cdr.h"
-#include "core/extras/ros/messages/geometry_messages.h"
+#include "core/extras/ros/recording/tf_frames.h"
 
 namespace railcast {
 namespace {
 
-constexpr std::size_t kMaxFrames = 10'000;
 constexpr std::size_t kMaxPoses = 8'000'000;
 
-/// tf2 takes "/map" for "map".
-std::string PlainFrame(const std::string& frame) {
-  return frame.starts_with('/') ? frame.substr(1) : frame;
+std::int64_t StampOf(const ros::TransformStamped& transform) {
+  return transform.header.stamp.sec * kNsPerS + transform.header.stamp.nanosec;
 }
 
-/// How a topic says that its transforms hold for all times. Latched ones may move nevertheless.
-enum class Standing { kNo, kIfEqual, kYes };
-
-Standing StandingOf(const bag::BagTopic& topic) {
-  if (topic.name.ends_with("/tf_static")) return Standing::kYes;
-  return topic.is_latched ? Standing::kIfEqual : Standing::kNo;
+double DistanceBetween_m(const Vector3& a, const Vector3& b) {
+  return (a - b).norm();
 }
 
-/// Calls `visit(transform, standing)` for each transform of the bag.
-template <typename Visit>
-void ForEachTransform(bag::BagReader& bag, const Visit& visit) {
-  std::vector<std::size_t> wanted;
-  for (std::size_t i = 0; i < bag.topics().size(); ++i) {
-    if (bag.topics()[i].type == ros::TfMessage::kName) wanted.push_back(i);
-  }
-  bag.Select(wanted);
-  while (const auto message = bag.Next()) {
-    const bag::BagTopic& topic = bag.topics()[message->topic];
-    const Standing standing = StandingOf(topic);
-    AtPlace(ShownText(topic.name) + ": ", [&] {
-      for (const auto& transform : ros::FromCdr<ros::TfMessage>(message->data).transforms) {
-        visit(transform, standing);
-      }
-    });
-  }
-}
-
-/// What all transforms to a frame say.
-struct ToFrame {
-  std::string parent;
-  bool is_static{};
-  ros::RosTransform last;
+/// Clocks of known differences.
+struct KnownDifference {
+  double seconds{};
+  std::string_view between;
 };
+constexpr std::array<KnownDifference, 3> kClocks = {
+    {{37.0, "TAI and UTC"}, {18.0, "GPS and UTC"}, {19.0, "TAI and GPS"}}};
+
+/// The exact difference of two clocks that was measured but for what messages are late by.
+std::optional<KnownDifference> ExactDifference(double measured_s) {
+  constexpr double kLate_s = 0.4;  // Less than half of what GPS and TAI differ by.
+  const double size_s = std::abs(measured_s);
+  for (const KnownDifference& clocks : kClocks) {
+    if (std::abs(size_s - clocks.seconds) <= kLate_s) {
+      return KnownDifference{std::copysign(clocks.seconds, measured_s), clocks.between};
+    }
+  }
+  constexpr double kZone_s = 900.0;  // Zones of time are whole quarters of an hour apart.
+  constexpr double kMostZone_s = 26.0 * 3600.0;
+  const double zone_s = kZone_s * std::round(size_s / kZone_s);
+  if (zone_s == 0.0 || zone_s > kMostZone_s || std::abs(size_s - zone_s) > kLate_s) {
+    return std::nullopt;
+  }
+  return KnownDifference{std::copysign(zone_s, measured_s), "two zones of time"};
+}
 
 }  // namespace
 
-TfPoses::TfPoses(bag::BagReader& bag, const std::string& frame) {
-  ReadLinks(bag, PlainFrame(frame));
-  if (!links_.empty()) ReadPoses(bag);
-}
-
-void TfPoses::ReadLinks(bag::BagReader& bag, const std::string& frame) {
-  std::map<std::string, ToFrame> parents;
-  ForEachTransform(bag, [&](const ros::TransformStamped& transform, Standing standing) {
-    ToFrame to{PlainFrame(transform.header.frame_id), standing != Standing::kNo,
-               transform.transform};
-    const auto [known, is_new] = parents.try_emplace(PlainFrame(transform.child_frame_id), to);
-    if (standing == Standing::kIfEqual && !is_new) {
-      to.is_static = known->second.is_static && known->second.last == to.last;
-    }
-    known->second = std::move(to);
-    if (parents.size() > kMaxFrames) {
-      throw InputError("must have at most " + NumberText(kMaxFrames) + " frames of reference");
-    }
-  });
-  std::vector<TfLink> links;
-  std::string child = frame;
-  for (auto found = parents.find(child); found != parents.end(); found = parents.find(child)) {
-    if (links.size() == parents.size()) {
-      throw InputError("frames of reference must not go in circles (got " + Quoted(frame) + ")");
-    }
-    const auto& [parent, is_static, last] = found->second;
-    links.push_back({child, parent, is_static, {}});
-    child = parent;
+std::optional<double> AheadOf(std::vector<double> differences_ns) {
+  if (differences_ns.empty()) return std::nullopt;
+  const double median_ns = MedianOf(differences_ns);
+  // Played at another speed, or got at times that nobody noted.
+  constexpr double kMostSpread_ns = 0.25e9;
+  for (double& difference_ns : differences_ns) {
+    difference_ns = std::abs(difference_ns - median_ns);
   }
-  constexpr std::array<std::string_view, 4> kFixed = {"map", "odom", "earth", "world"};
-  const bool is_fixed =
-      std::ranges::find(kFixed, child) != kFixed.end() ||
-      std::ranges::any_of(links, [](const TfLink& link) { return !link.is_static; });
-  if (is_fixed) links_ = std::move(links);
+  if (MedianOf(differences_ns) > kMostSpread_ns) return std::nullopt;
+  return median_ns;
 }
 
-void TfPoses::ReadPoses(bag::BagReader& bag) {
+TfPoses::TfPoses(bag::BagReader& bag, const CloudHeaders& clouds) {
+  const TfTopics topics = TfTopicsFor(clouds.topic, bag.topics());
+  if (!topics.others.empty()) remarks_.push_back(topics.RemarkOnOthers());
+  const TfTree tree = ReadTree(bag, topics.chosen, remarks_);
+  const std::string frame = PlainFrame(clouds.frame_id);
+  is_fixed_ = tree.IsFixed(frame);
+  if (is_fixed_) return;
+  for (TfStep& step : tree.WayToFixed(frame)) links_.push_back({.step = std::move(step)});
+  if (links_.empty()) {
+    if (auto reason = tree.WhyNoWay(frame, topics)) remarks_.push_back(std::move(*reason));
+    return;
+  }
+  ReadPoses(bag, topics.chosen);
+  if (clouds.ahead_ns) CompareClocks(*clouds.ahead_ns);
+}
+
+void TfPoses::ReadPoses(bag::BagReader& bag, const std::vector<std::size_t>& topics) {
   std::size_t num_poses = 0;
-  ForEachTransform(bag, [&](const ros::TransformStamped& transform, Standing) {
+  Remark left_out{.kind = RemarkKind::kTransformsLeftOut, .place = {}, .number = 0};
+  const auto take = [&](const ros::TransformStamped& transform, const bag::BagMessage& message) {
+    if (!FaultOf(transform).empty()) return;
+    const std::string child = PlainFrame(transform.child_frame_id);
     const auto link =
-        std::ranges::find(links_, PlainFrame(transform.child_frame_id), &TfLink::child);
+        std::ranges::find(links_, child, [](const TfLink& of) { return of.step.child; });
     if (link == links_.end()) return;
-    if (const std::string parent = PlainFrame(transform.header.frame_id); parent != link->parent) {
-      if (left_out_.number++ > 0) return;
-      left_out_.detail =
-          Quoted(link->child) + " from " + Quoted(parent) + ", not from " + Quoted(link->parent);
+    if (const auto parent = PlainFrame(transform.header.frame_id); parent != link->step.parent) {
+      if (left_out.number++ > 0) return;
+      left_out.detail =
+          Quoted(child) + " from " + Quoted(parent) + ", not from " + Quoted(link->step.parent);
       return;
     }
     const auto& [position, rotation] = transform.transform;
-    TimedPose pose{transform.header.stamp.sec * kNsPerS + transform.header.stamp.nanosec,
+    TimedPose pose{StampOf(transform),
                    {position.x, position.y, position.z},
-                   {rotation.w, rotation.x, rotation.y, rotation.z}};
-    constexpr double kTolerance = 0.1;  // That of tf2.
-    if (!pose.position_m.allFinite() || !(std::abs(pose.rotation.norm() - 1.0) <= kTolerance)) {
-      throw InputError("the transform to " + Quoted(link->child) +
-                       " must be a position and a unit quaternion");
-    }
+                   {rotation.w, rotation.x, rotation.y, rotation.z},
+                   message.topic};
     pose.rotation.normalize();
-    if (link->is_static) link->poses.clear();
+    if (link->step.is_downwards) {
+      pose.rotation = pose.rotation.conjugate();
+      pose.position_m = -(pose.rotation * pose.position_m);
+    }
+    if (link->step.is_static) link->poses.clear();
     link->poses.push_back(pose);
+    if (!link->step.is_static) {
+      link->ahead_ns.push_back(static_cast<double>(pose.time_ns) -
+                               static_cast<double>(message.time_ns));
+    }
     if (++num_poses > kMaxPoses) {
       throw InputError("must have at most " + NumberText(kMaxPoses) + " transforms");
     }
-  });
-  for (TfLink& link : links_) {
-    std::ranges::stable_sort(link.poses, {}, &TimedPose::time_ns);
-    std::vector<double> steps_ns;
-    for (std::size_t i = 1; i < link.poses.size(); ++i) {
-      steps_ns.push_back(static_cast<double>(link.poses[i].time_ns - link.poses[i - 1].time_ns));
-    }
-    constexpr double kTimesMedian = 10.0;
-    const double usual_ns = steps_ns.empty() ? 0.0 : MedianOf(steps_ns);
-    link.most_ns = std::max(kNsPerS, std::lround(kTimesMedian * usual_ns));
+  };
+  ForEachTransform(bag, topics, take);
+  if (left_out.number > 0) remarks_.push_back(std::move(left_out));
+  for (const bag::BagTopic& topic : bag.topics()) topic_names_.push_back(ShownText(topic.name));
+  for (TfLink& link : links_) Finish(link);
+}
+
+void TfPoses::Finish(TfLink& link) {
+  std::ranges::stable_sort(link.poses, {}, &TimedPose::time_ns);
+  std::vector<double> steps_ns;
+  for (std::size_t i = 1; i < link.poses.size(); ++i) {
+    steps_ns.push_back(static_cast<double>(link.poses[i].time_ns) -
+                       static_cast<double>(link.poses[i - 1].time_ns));
   }
+  link.jumps = JumpsOf(link.poses);
+  constexpr double kTimesMedian = 10.0;
+  const double usual_ns = steps_ns.empty() ? 0.0 : MedianOf(steps_ns);
+  link.most_ns = std::max(kNsPerS, std::lround(kTimesMedian * usual_ns));
+}
+
+// Where transforms of two vehicles come in turns, each is near to the next but one, and the speed
+// from each to the next is that of none.
+std::vector<bool> TfPoses::JumpsOf(const std::vector<TimedPose>& poses) {
+  constexpr double kShortest_m = 0.5;  // Nearer to each other than two vehicles are.
+  constexpr double kFastest_mps = 100.0;
+  constexpr double kTimesUsual = 3.0;
+  constexpr std::size_t kNear = 3;  // As many vehicles are told apart.
+  constexpr std::size_t kAround = 8;
+  const auto speed_mps = [&](std::size_t i, std::size_t j) {
+    const double way_m = DistanceBetween_m(poses[i].position_m, poses[j].position_m);
+    const double time_s = SecondsFromNs(std::abs(poses[j].time_ns - poses[i].time_ns));
+    if (way_m == 0.0) return 0.0;
+    return time_s > 0.0 ? way_m / time_s : std::numeric_limits<double>::infinity();
+  };
+  std::vector<double> least_mps(poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    least_mps[i] = std::numeric_limits<double>::infinity();
+    const std::size_t end = std::min(i + kNear + 1, poses.size());
+    for (std::size_t j = i - std::min(i, kNear); j < end; ++j) {
+      if (j != i) least_mps[i] = std::min(least_mps[i], speed_mps(i, j));
+    }
+  }
+  std::vector<bool> is_jump(poses.size());
+  for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
+    if (DistanceBetween_m(poses[i].position_m, poses[i + 1].position_m) <= kShortest_m) continue;
+    const auto begin = least_mps.begin() + static_cast<std::ptrdiff_t>(i - std::min(i, kAround));
+    const auto end =
+        least_mps.begin() + static_cast<std::ptrdiff_t>(std::min(i + 2 + kAround, poses.size()));
+    std::vector<double> around_mps(begin, end);
+    const double most_mps = std::min(kFastest_mps, kTimesUsual * MedianOf(around_mps));
+    if (speed_mps(i, i + 1) <= most_mps) continue;
+    is_jump[i] = true;
+    // Which of two transforms of one time the others belong to is not known.
+    if (poses[i].time_ns != poses[i + 1].time_ns) continue;
+    if (i > 0) is_jump[i - 1] = true;
+    if (i + 2 < poses.size()) is_jump[i + 1] = true;
+  }
+  return is_jump;
+}
+
+void TfPoses::CompareClocks(double clouds_ahead_ns) {
+  // Localisation may state times up to a second ahead, for its poses to be there when asked for.
+  constexpr double kOtherClock_s = 1.25;
+  for (TfLink& link : links_) {
+    const auto ahead_ns = AheadOf(std::exchange(link.ahead_ns, {}));
+    if (!ahead_ns) continue;
+    const double measured_s = (clouds_ahead_ns - *ahead_ns) / static_cast<double>(kNsPerS);
+    if (std::abs(measured_s) <= kOtherClock_s) continue;
+    const auto exact = ExactDifference(measured_s);
+    const double by_s = exact ? exact->seconds : measured_s;
+    other_clock_ = (exact ? NumberText(std::abs(by_s)) : ShortText(std::abs(by_s))) +
+                   (by_s > 0.0 ? " s ahead" : " s behind");
+    if (exact) {
+      other_clock_ += ", as between " + std::string(exact->between);
+      link.shift_ns = std::llround(by_s * static_cast<double>(kNsPerS));
+      continue;
+    }
+    other_clock_ += ", which no two known clocks are apart";
+    is_clock_known_ = false;
+    return;
+  }
+}
+
+TfPoses::PoseRange TfPoses::RangeOf(const TfLink& link,
+                                    std::int64_t begin_ns,
+                                    std::int64_t end_ns) {
+  const auto from = std::ranges::lower_bound(link.poses, begin_ns, {}, &TimedPose::time_ns);
+  const auto to = std::ranges::upper_bound(link.poses, end_ns, {}, &TimedPose::time_ns);
+  const auto first = static_cast<std::size_t>(from - link.poses.begin());
+  return {first - std::min<std::size_t>(first, 1),
+          static_cast<std::size_t>(to - link.poses.begin())};
 }
 
 std::optional<Transform> TfPoses::PoseOf(const TfLink& link, std::int64_t time_ns) {
   const auto to_transform = [](const Vector3& position_m, const Eigen::Quaterniond& rotation) {
     return MakeTransform(rotation.toRotationMatrix(), position_m);
   };
+  if (link.step.is_static) {
+    return to_transform(link.poses.front().position_m, link.poses.front().rotation);
+  }
   // Points state their times in rounded seconds, so that the last one may seem to be behind the
   // last transform.
   constexpr std::int64_t kRounding_ns = 1000;
@@ -150,9 +226,6 @@ std::optional<Transform> TfPoses::PoseOf(const TfLink& link, std::int64_t time_n
     if (std::abs(known_ns - time_ns) <= kRounding_ns) time_ns = known_ns;
   }
   const auto after = std::ranges::lower_bound(link.poses, time_ns, {}, &TimedPose::time_ns);
-  if (link.is_static) {
-    return to_transform(link.poses.front().position_m, link.poses.front().rotation);
-  }
   if (after == link.poses.end()) return std::nullopt;
   if (after->time_ns == time_ns) return to_transform(after->position_m, after->rotation);
   if (after == link.poses.begin()) return std::nullopt;
@@ -164,24 +237,41 @@ std::optional<Transform> TfPoses::PoseOf(const TfLink& link, std::int64_t time_n
 }
 
 std::optional<Transform> TfPoses::At(std::int64_t time_ns) const {
-  if (links_.empty()) return std::nullopt;
+  if (links_.empty() || !is_clock_known_) return std::nullopt;
   Transform fixed_from_frame = Transform::Identity();
   for (auto link = links_.rbegin(); link != links_.rend(); ++link) {
-    const auto parent_from_child = PoseOf(*link, time_ns);
+    const auto parent_from_child = PoseOf(*link, time_ns - link->shift_ns);
     if (!parent_from_child) return std::nullopt;
     fixed_from_frame = fixed_from_frame * *parent_from_child;
   }
   return fixed_from_frame;
 }
 
+std::string TfPoses::JumpWithin(std::int64_t begin_ns, std::int64_t end_ns) const {
+  for (const TfLink& link : links_) {
+    if (link.step.is_static) continue;
+    const auto [first, last] = RangeOf(link, begin_ns - link.shift_ns, end_ns - link.shift_ns);
+    for (std::size_t i = first; i < std::min(last, link.poses.size()); ++i) {
+      if (!link.jumps[i]) continue;
+      const TimedPose& from = link.poses[i];
+      const TimedPose& to = link.poses[i + 1];
+      return ShortText(DistanceBetween_m(from.position_m, to.position_m)) + " m in " +
+             SecondsText(to.time_ns - from.time_ns) + " of " + topic_names_.at(from.topic) +
+             (from.topic == to.topic ? "" : " and " + topic_names_.at(to.topic));
+    }
+  }
+  return {};
+}
+
 std::int64_t TfPoses::Bridged_ns(std::int64_t time_ns) const {
   std::int64_t bridged_ns = 0;
   for (const TfLink& link : links_) {
-    if (link.is_static) continue;
-    const auto after = std::ranges::lower_bound(link.poses, time_ns, {}, &TimedPose::time_ns);
+    if (link.step.is_static) continue;
+    const std::int64_t at_ns = time_ns - link.shift_ns;
+    const auto after = std::ranges::lower_bound(link.poses, at_ns, {}, &TimedPose::time_ns);
     if (after == link.poses.end() || after == link.poses.begin()) continue;
     const std::int64_t step_ns = after->time_ns - (after - 1)->time_ns;
-    if (after->time_ns > time_ns && step_ns > link.most_ns) {
+    if (after->time_ns > at_ns && step_ns > link.most_ns) {
       bridged_ns = std::max(bridged_ns, step_ns);
     }
   }
@@ -191,10 +281,11 @@ std::int64_t TfPoses::Bridged_ns(std::int64_t time_ns) const {
 std::int64_t TfPoses::Beyond_ns(std::int64_t time_ns) const {
   std::int64_t beyond_ns = 0;
   for (const TfLink& link : links_) {
-    if (link.is_static || link.poses.empty()) continue;
+    if (link.step.is_static || link.poses.empty()) continue;
+    const std::int64_t at_ns = time_ns - link.shift_ns;
     const std::int64_t known_ns =
-        std::clamp(time_ns, link.poses.front().time_ns, link.poses.back().time_ns);
-    beyond_ns = std::max(beyond_ns, std::abs(time_ns - known_ns));
+        std::clamp(at_ns, link.poses.front().time_ns, link.poses.back().time_ns);
+    beyond_ns = std::max(beyond_ns, std::abs(at_ns - known_ns));
   }
   return beyond_ns;
 }

@@ -14,6 +14,7 @@
 #include "core/base/text.h"
 #include "core/extras/ros/bag/bag.h"
 #include "core/extras/ros/messages/cdr.h"
+#include "core/extras/ros/recording/bag_series.h"
 #include "core/extras/ros/recording/cloud_message.h"
 #include "core/extras/ros/recording/message_packets.h"
 #include "generator/extras/insert/clouds/edit_rows.h"
@@ -158,11 +159,16 @@ class BagPacketEditor {
   std::uint64_t num_datagrams_{};
 };
 
-/// The messages of one topic of a bag, and the bag's copy.
+/// The messages of a series of a bag's topic, and the bag's copy.
 struct TopicCopy {
   std::unique_ptr<bag::BagReader> messages;
   bag::BagTopic topic;
+  std::string series;
   std::unique_ptr<bag::BagCopy> copy;
+
+  [[nodiscard]] std::optional<bag::BagMessage> Next() const {
+    return NextOfSeries(*messages, series);
+  }
 };
 
 TopicCopy CopyTopic(const BagSource& source, const std::filesystem::path& folder) {
@@ -178,7 +184,7 @@ TopicCopy CopyTopic(const BagSource& source, const std::filesystem::path& folder
   // A directory may be named with a slash at its end.
   const auto path = source.bag.has_filename() ? source.bag : source.bag.parent_path();
   auto copy = bag::CopyBag(source.bag, folder / path.filename(), topic);
-  return {std::move(messages), topic, std::move(copy)};
+  return {std::move(messages), topic, source.series, std::move(copy)};
 }
 
 class BagPacketOutput : public InsertedOutput {
@@ -192,7 +198,7 @@ class BagPacketOutput : public InsertedOutput {
     if (inserted.edits.empty()) return std::nullopt;
     const std::uint32_t turn = inserted.recorded.frame.index;
     while (!editor_.Has(turn)) {
-      if (const auto message = topic_.messages->Next()) {
+      if (const auto message = topic_.Next()) {
         editor_.Take(*message);
         editor_.Skip(turn);
       } else {
@@ -233,9 +239,9 @@ class BagCloudOutput : public InsertedOutput {
                                                   const InsertedFrame& inserted) override {
     if (inserted.edits.empty()) return SlotsOfEntries(firings);
     for (; next_ < inserted.recorded.frame.index; ++next_) {
-      topic_.copy->Put(topic_.messages->Next().value().place, std::nullopt);
+      topic_.copy->Put(topic_.Next().value().place, std::nullopt);
     }
-    const bag::BagMessage message = topic_.messages->Next().value();
+    const bag::BagMessage message = topic_.Next().value();
     ++next_;
     EditedCloudMessage edited = EditCloudMessage(message.data, firings, inserted);
     topic_.copy->Put(message.place, edited.data);
@@ -254,7 +260,7 @@ class BagCloudOutput : public InsertedOutput {
 std::unique_ptr<InsertedOutput> MakeBagOutput(const BagSource& source,
                                               const std::filesystem::path& folder) {
   TopicCopy topic = CopyTopic(source, folder);
-  if (const auto packets = FindBagPackets(source.bag, source.topic)) {
+  if (const auto packets = FindBagPackets(source)) {
     return std::make_unique<BagPacketOutput>(source, *packets, std::move(topic));
   }
   return std::make_unique<BagCloudOutput>(std::move(topic));

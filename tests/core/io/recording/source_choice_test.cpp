@@ -35,6 +35,22 @@ TEST(WithChoice, NamesTheTopicOfBagsAlone) {
             "sequence)");
 }
 
+TEST(WithChoice, NamesTheFrameIdOfBagsBehindTheirTopics) {
+  const TemporaryDirectory folder;
+  const std::filesystem::path bag = folder.path() / "run.mcap";
+  std::ofstream(bag) << "";
+  using Paths = std::vector<std::filesystem::path>;
+  EXPECT_EQ(WithChoice({"sequence", bag}, {.frame_id = "front"}),
+            (Paths{"sequence", bag.string() + ":/#front"}));
+  EXPECT_EQ(WithChoice({bag}, {.topic = "/points", .frame_id = "roof/left"}),
+            (Paths{bag.string() + ":/points#roof/left"}));
+  EXPECT_EQ(WithChoice({bag.string() + ":/points"}, {.frame_id = "front"}),
+            (Paths{bag.string() + ":/points#front"}));
+  EXPECT_EQ(MessageOf([&] { (void)WithChoice({"sequence"}, {.frame_id = "front"}); }),
+            "--frame-id: must come with a bag of ROS 2, .mcap, .db3 or a directory of them (got "
+            "sequence)");
+}
+
 /// Five float32 a point, as nuScenes has them.
 void WriteNuScenes(const std::filesystem::path& file) {
   std::string bytes;

@@ -70,9 +70,9 @@ INSTANTIATE_TEST_SUITE_P(Captures,
 
 TEST(PacketRecording, OfABagGoesToThePortOfItsSensor) {
   if (const auto why = WhyNoHesaiBag("xt32"); !why.empty()) GTEST_SKIP() << why;
-  PacketRecording recording(*FindBagPackets(HesaiBag("xt32"), ""));
+  PacketRecording recording(*FindBagPackets({HesaiBag("xt32")}));
   EXPECT_EQ(recording.name(), "XT32");
-  const auto packets = FindBagPackets(HesaiBag("xt32"), "")->open();
+  const auto packets = FindBagPackets({HesaiBag("xt32")})->open();
   for (const auto& turn : AllTurnsOf(recording)) {
     for (const RecordedDatagram& datagram : turn) {
       const auto expected = packets->Next();

@@ -60,12 +60,16 @@ inline const std::vector<std::array<float, 3>> kBagPoints = {
     {-4.0F, 5.0F, 0.25F},
     {std::numeric_limits<float>::quiet_NaN(), 1.0F, 1.0F}};
 
+enum class BagKind { kMcap, kRosbag2 };
+
 /// A bag that grows message by message.
 class MadeBag {
  public:
-  MadeBag() : writer_(bag::CreateMcap(file())) {}
+  explicit MadeBag(BagKind kind = BagKind::kMcap)
+      : file_(folder_.path() / (kind == BagKind::kMcap ? "run.mcap" : "run")),
+        writer_(kind == BagKind::kMcap ? bag::CreateMcap(file_) : bag::CreateRosbag2(file_)) {}
 
-  [[nodiscard]] std::filesystem::path file() const { return folder_.path() / "run.mcap"; }
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 
   template <typename Message>
   void Add(const std::string& topic,
@@ -95,6 +99,7 @@ class MadeBag {
 
  private:
   TemporaryDirectory folder_;
+  std::filesystem::path file_;
   std::unique_ptr<bag::BagWriter> writer_;
 };
 

@@ -130,8 +130,8 @@ TEST(InsertedDatagrams, OfABagAreItsPacketsWithTheEdits) {
   if (const auto why = WhyNoHesaiBag("xt32"); !why.empty()) GTEST_SKIP() << why;
   const TemporaryDirectory folder;
   static_cast<void>(CopyWithEdits(HesaiBag("xt32"), folder.path(), EditedByHand));
-  const auto written = FindBagPackets(folder.path() / "xt32.db3", "")->open();
-  PacketRecording sent(PlaceOfInserted(*FindBagPackets(HesaiBag("xt32"), ""), EditedByHand));
+  const auto written = FindBagPackets({folder.path() / "xt32.db3"})->open();
+  PacketRecording sent(PlaceOfInserted(*FindBagPackets({HesaiBag("xt32")}), EditedByHand));
   std::size_t num_sent = 0;
   for (auto turn = sent.NextTurn(); !turn.empty(); turn = sent.NextTurn()) {
     for (const RecordedDatagram& datagram : turn) {
