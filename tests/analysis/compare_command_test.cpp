@@ -32,7 +32,8 @@ TEST(RailcastAnalyzeCompare, WantsTwoRecordingsOrAScenario) {
        {"--format text", "a.pcd --format text", "a b c --format text", "a b",
         "a --ablate s.json --format text", "a b --frames 3 --format text",
         "--ablate s.json --pair index --format text", "a b --pair time --format text",
-        "--ablate s.json --kitti-columns 5 --format text"}) {
+        "--ablate s.json --kitti-columns 5 --format text",
+        "--ablate s.json --frame-id lidar --format text"}) {
     EXPECT_EQ(Compare(arguments).status, 2) << arguments;
   }
 }
