@@ -184,8 +184,8 @@ Raises InputError for a file that cannot be read or is damaged.)")
       },
       py::arg("path"),
       R"(Opens a sequence directory, a .pcd or .ply file, a directory of such files, KITTI's folders,
-a .pcap or .pcapng capture or a bag of ROS 2, "BAG:/topic" where it has several topics
-(docs/recordings.md).
+a .pcap or .pcapng capture or a bag of ROS 2, "BAG:/topic" where it has several topics and
+"BAG:/topic#frame_id" where that has several sensors (docs/recordings.md).
 
 Raises InputError if it is none of these.)");
 }

@@ -161,7 +161,8 @@ class Recording {
 
 /// Opens a sequence directory, a .pcd or .ply file, a directory of such files (in order of their
 /// names), a .pcap or .pcapng capture of one of the sensors that docs/packets.md lists, or a bag of
-/// ROS 2 (.mcap, .db3 or a rosbag2 directory), also one of several topics as TopicOfBag() names it.
+/// ROS 2 (.mcap, .db3 or a rosbag2 directory), also one of several topics as TopicOfBag() names it,
+/// with "#frame_id" behind it where that has several sensors.
 /// @throws InputError with one line if `source` is none of these.
 [[nodiscard]] std::unique_ptr<Recording> OpenRecording(const std::filesystem::path& source);
 
