@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <iterator>
 #include <string_view>
+#include <utility>
 
 #include "core/base/units.h"
 #include "core/extras/packets/spinning/scan_fit.h"
@@ -33,15 +35,37 @@ bool GoesOn(const PacketMark& before, const PacketMark& mark) {
 
 constexpr std::int64_t kLessThanTurn_ns = kNsPerS / 40;
 
-bool AreNear(std::int64_t azimuth, std::int64_t other) {
-  constexpr std::int64_t kNear = 600;  // What a packet spans.
-  return std::min(StepTo(azimuth, other), StepTo(other, azimuth)) < kNear;
-}
+constexpr std::int64_t kLeastWindow = 2000;  // In 0.01 deg.
+constexpr std::int64_t kBin = 10;            // Likewise.
 
 void AddTally(PacketTally& sum, const PacketTally& tally) {
   if (tally.number == 0) return;
   sum.first = sum.number == 0 ? tally.first : std::min(sum.first, tally.first);
   sum.number += tally.number;
+}
+
+using ArcParts = std::vector<std::pair<std::int64_t, std::int64_t>>;
+
+/// The azimuths of a packet's blocks: from, to.
+ArcParts PartsOf(const PacketMark& mark) {
+  if (mark.silent_from != mark.silent_to) {
+    return {{mark.first_azimuth, mark.silent_from}, {mark.silent_to, mark.last_azimuth}};
+  }
+  const std::int64_t span = StepTo(mark.last_azimuth, mark.first_azimuth);
+  if (span >= kAzimuthUnitsPerTurn / 2) return {};
+  return {{mark.first_azimuth, mark.last_azimuth}};
+}
+
+/// The least number that this share of them does not exceed; 0 of none.
+std::int64_t Quantile(const std::map<std::int64_t, std::size_t>& numbers, double share) {
+  std::size_t total = 0;
+  for (const auto& [number, count] : numbers) total += count;
+  std::size_t below = 0;
+  for (const auto& [number, count] : numbers) {
+    below += count;
+    if (static_cast<double>(below) >= share * static_cast<double>(total)) return number;
+  }
+  return 0;
 }
 
 }  // namespace
@@ -183,80 +207,13 @@ void PacketOrder::CountLost(const Held& next) {
     if (gap > 1 && can_be) lost_.Count(next.packet.number, static_cast<std::size_t>(gap - 1));
     return;
   }
-  EndSilences(next);
-  const std::int64_t packet_ns = last.mark.packet_ns;
-  if (packet_ns == 0 || 2 * gap < 3 * packet_ns) return;
-  // A clock that jumps ahead loses nothing.
-  if (gap > kNsPerS && next.packet.captured_ns - last.captured_ns < gap / 2) return;
-  // Nor does what comes late, but goes on where the last one ends.
-  constexpr std::int64_t kLongestTurn_ns = kNsPerS / 5;
-  const std::int64_t turned = StepTo(next.mark.first_azimuth, last.mark.last_azimuth);
-  if (gap < kLongestTurn_ns && 2 * turned <= 5 * last.mark.azimuth_step) return;
-  Silence silence{
-      .from = last.mark.last_azimuth, .to = next.mark.first_azimuth, .order = next.order};
-  const double packets =
-      static_cast<double>(gap - SilentNs(last.mark, gap, silence)) / static_cast<double>(packet_ns);
-  const auto num_packets = std::max<std::int64_t>(std::llround(packets), 2);
-  silence.lost.Count(next.packet.number, static_cast<std::size_t>(num_packets - 1));
-  AddSilence(std::move(silence));
-}
-
-std::int64_t PacketOrder::SilentNs(const PacketMark& last,
-                                   std::int64_t gap_ns,
-                                   const Silence& within) const {
-  double silent_ns = 0.0;
-  for (const Silence& silence : silences_) {
-    if (!silence.is_window() || last.turn_ns == 0 || silence.IsNear(within)) continue;
-    const double turned = static_cast<double>(gap_ns) / static_cast<double>(last.turn_ns);
-    const auto to_middle = static_cast<double>(StepTo(silence.middle(), last.first_azimuth));
-    const double passes = std::floor(turned - to_middle / kAzimuthUnitsPerTurn) + 1.0;
-    const auto width = static_cast<double>(StepTo(silence.to, silence.from));
-    silent_ns +=
-        std::max(passes, 0.0) * width / kAzimuthUnitsPerTurn * static_cast<double>(last.turn_ns);
-  }
-  return std::llround(silent_ns);
-}
-
-std::int64_t PacketOrder::Silence::middle() const {
-  return (from + StepTo(to, from) / 2) % kAzimuthUnitsPerTurn;
-}
-
-bool PacketOrder::Silence::IsNear(const Silence& other) const {
-  return AreNear(from, other.from) && AreNear(to, other.to);
-}
-
-void PacketOrder::EndSilences(const Held& next) {
-  const PacketMark& mark = next.mark;
-  if (mark.silent_from != mark.silent_to) {
-    return AddSilence({.from = mark.silent_from, .to = mark.silent_to, .order = next.order});
-  }
-  const std::int64_t span = StepTo(mark.last_azimuth, mark.first_azimuth);
-  if (span >= kAzimuthUnitsPerTurn / 2) return;
-  std::erase_if(silences_, [&](Silence& silence) {
-    const bool is_within = StepTo(silence.middle(), mark.first_azimuth) <= span;
-    if (!is_within || --silence.num_turns > 0) return false;
-    AddTally(lost_, silence.lost);
-    return true;
-  });
-}
-
-void PacketOrder::AddSilence(Silence silence) {
-  const auto known =
-      std::ranges::find_if(silences_, [&](const Silence& other) { return other.IsNear(silence); });
-  if (known == silences_.end()) return silences_.push_back(std::move(silence));
-  AddTally(known->lost, silence.lost);
-  if (std::abs(silence.order - known->order) < kLessThanTurn_ns) return;
-  known->order = silence.order;
-  // By then, it is a window even if something is sent there afterwards.
-  constexpr std::int64_t kSureTurns = 16;
-  if (++known->num_turns >= kSureTurns) known->lost = {};
+  missing_.Look(last.mark, next.mark, gap, next.packet.captured_ns - last.captured_ns,
+                next.packet.number);
 }
 
 PacketTally PacketOrder::lost() const {
-  PacketTally lost = lost_;
-  for (const Silence& silence : silences_) {
-    if (!silence.is_window()) AddTally(lost, silence.lost);
-  }
+  PacketTally lost = missing_.lost();
+  AddTally(lost, lost_);
   return lost;
 }
 
@@ -279,6 +236,224 @@ std::optional<std::uint64_t> PacketOrder::first_held_datagram() const {
   for (const Held& held : behind_) look(held.packet);
   for (const Held& held : set_back_) look(held.packet);
   return first;
+}
+
+std::int64_t MissingPackets::Arc::width() const {
+  return StepTo(to, from);
+}
+
+std::int64_t MissingPackets::Arc::middle() const {
+  return (from + width() / 2) % kAzimuthUnitsPerTurn;
+}
+
+bool MissingPackets::Arc::Holds(std::int64_t azimuth) const {
+  return StepTo(azimuth, from) <= width();
+}
+
+bool MissingPackets::Arc::IsAllOf(const Arc& other, std::int64_t most) const {
+  return StepTo(from, other.from) <= most && StepTo(other.to, to) <= most;
+}
+
+double MissingPackets::Gap::NumPasses(const Arc& window) const {
+  const auto to_middle = static_cast<double>(StepTo(window.middle(), begin));
+  return std::max(std::floor(turns - to_middle / kAzimuthUnitsPerTurn) + 1.0, 0.0);
+}
+
+double MissingPackets::TurnNs(const PacketMark& mark) const {
+  return turned_ > 0.0 ? turned_ns_ / turned_ : static_cast<double>(mark.turn_ns);
+}
+
+void MissingPackets::Look(const PacketMark& last,
+                          const PacketMark& next,
+                          std::int64_t gap_ns,
+                          std::int64_t captured_ns,
+                          std::size_t number) {
+  if (std::exchange(has_begun_, true)) {
+    EndWindows(next);
+  } else {
+    Cover(last);
+  }
+  Turn(last, next, gap_ns);
+  Cover(next);
+  // More are not needed to know a window, and no more are kept.
+  constexpr std::size_t kMostTurns = 32;
+  constexpr std::size_t kMostGaps = 4096;
+  if (num_turns_ >= kMostTurns || gaps_.size() >= kMostGaps) Settle();
+  if (last.packet_ns == 0) return;
+  const double turn_ns = TurnNs(last);
+  const auto elapsed_ns = static_cast<double>(gap_ns);
+  // A clock that jumps ahead loses nothing.
+  const bool has_jumped = gap_ns > kNsPerS && captured_ns < gap_ns / 2;
+  // Nor does what comes late, but goes on where the last one ends.
+  constexpr std::int64_t kLongestTurn_ns = kNsPerS / 5;
+  const std::int64_t turned = StepTo(next.first_azimuth, last.last_azimuth);
+  const bool goes_on = gap_ns < kLongestTurn_ns && (turn_ns == 0.0 || elapsed_ns < turn_ns) &&
+                       2 * turned <= 5 * last.azimuth_step;
+  if (2 * gap_ns < 3 * last.packet_ns || has_jumped || goes_on) {
+    ++num_missing_[0];
+    return;
+  }
+  const auto packet_ns = static_cast<double>(last.packet_ns);
+  const Gap gap{.begin = last.first_azimuth,
+                .arc = {last.last_azimuth, next.first_azimuth},
+                .turns = turn_ns > 0.0 ? elapsed_ns / turn_ns : 0.0,
+                .packets = elapsed_ns / packet_ns - 1.0,
+                .number = number};
+  const double silent_turns = gap.turns * gap.packets / (gap.packets + 1.0);
+  if (silent_turns * kAzimuthUnitsPerTurn >= kLeastWindow) return gaps_.push_back(gap);
+  const auto num = std::max<std::int64_t>(std::llround(gap.packets), 1);
+  ++num_missing_[num];
+  lost_.Count(number, static_cast<std::size_t>(num));
+}
+
+void MissingPackets::Turn(const PacketMark& last, const PacketMark& next, std::int64_t gap_ns) {
+  if (next.first_azimuth < last.first_azimuth) ++num_turns_;
+  // By then, it cannot have made a whole turn.
+  if (gap_ns <= 0 || 4 * gap_ns >= last.turn_ns) return;
+  turned_ +=
+      static_cast<double>(StepTo(next.first_azimuth, last.first_azimuth)) / kAzimuthUnitsPerTurn;
+  turned_ns_ += static_cast<double>(gap_ns);
+  constexpr double kOfLate = 16.0;
+  if (turned_ < kOfLate) return;
+  turned_ /= 2.0;
+  turned_ns_ /= 2.0;
+}
+
+void MissingPackets::Cover(const PacketMark& mark) {
+  if (mark.silent_from != mark.silent_to) AddWindow({mark.silent_from, mark.silent_to}, mark);
+  for (const auto& [from, to] : PartsOf(mark)) {
+    const std::int64_t num = (from % kBin + StepTo(to, from)) / kBin;
+    for (std::int64_t i = 0; i <= num; ++i) {
+      is_covered_[(static_cast<std::size_t>(from / kBin + i)) % kNumBins] = true;
+    }
+  }
+}
+
+void MissingPackets::EndWindows(const PacketMark& mark) {
+  const ArcParts parts = PartsOf(mark);
+  const auto has_ended = [&](const Window& window) {
+    return std::ranges::any_of(parts, [&](const auto& part) {
+      return Arc{part.first, part.second}.Holds(window.arc.middle());
+    });
+  };
+  if (std::ranges::none_of(windows_, has_ended)) return;
+  Settle();
+  std::erase_if(windows_, has_ended);
+}
+
+void MissingPackets::AddWindow(const Arc& arc, const PacketMark& mark) {
+  const double turns = static_cast<double>(arc.width() - mark.azimuth_step) / kAzimuthUnitsPerTurn;
+  // A wrong azimuth makes a gap within a packet, too, but once, and where others have blocks.
+  Window window{.arc = arc,
+                .packets = turns * TurnNs(mark) / static_cast<double>(mark.packet_ns),
+                .is_certain = !IsCovered(arc)};
+  const auto known = std::ranges::find_if(
+      windows_, [&](const Window& other) { return other.arc.Holds(arc.middle()); });
+  if (known == windows_.end()) return windows_.push_back(window);
+  constexpr std::int64_t kMostApart = 600;
+  const Arc before = known->arc;
+  window.is_certain = true;
+  const bool is_same = known->is_certain && std::abs(before.width() - arc.width()) < kMostApart;
+  if (!is_same) Settle();
+  for (Window& other : windows_) {
+    if (other.arc.Holds(arc.middle())) other = window;
+  }
+}
+
+void MissingPackets::Settle() {
+  const std::vector<Window> windows = Windows();
+  CountLost(windows, lost_);
+  std::erase_if(windows_, [](const Window& window) { return window.is_certain; });
+  windows_.insert(windows_.end(), windows.begin(), windows.end());
+  gaps_.clear();
+  is_covered_.assign(kNumBins, false);
+  num_turns_ = 0;
+}
+
+bool MissingPackets::IsCovered(const Arc& arc) const {
+  return is_covered_[static_cast<std::size_t>(arc.middle() / kBin)];
+}
+
+void MissingPackets::CountLost(const std::vector<Window>& windows, PacketTally& lost) const {
+  for (const Gap& gap : gaps_) {
+    double packets = gap.packets;
+    bool is_window = false;
+    for (const Window& window : windows) {
+      packets -= gap.NumPasses(window.arc) * window.packets;
+      is_window = is_window || (gap.turns < 1.0 && window.arc.IsAllOf(gap.arc, window.slack));
+    }
+    const std::int64_t num = is_window ? 0 : std::max<std::int64_t>(std::llround(packets), 0);
+    lost.Count(gap.number, static_cast<std::size_t>(num));
+  }
+}
+
+std::vector<MissingPackets::Arc> MissingPackets::SilentArcs() const {
+  std::vector<Arc> arcs;
+  const auto first =
+      static_cast<std::size_t>(std::ranges::find(is_covered_, true) - is_covered_.begin());
+  std::size_t begin = first;
+  for (std::size_t bin = first + 1; bin <= first + kNumBins && first < kNumBins; ++bin) {
+    if (!is_covered_[bin % kNumBins]) continue;
+    if (static_cast<std::int64_t>(bin - begin - 1) * kBin >= kLeastWindow) {
+      arcs.push_back({static_cast<std::int64_t>((begin + 1) % kNumBins) * kBin,
+                      static_cast<std::int64_t>(bin % kNumBins) * kBin});
+    }
+    begin = bin;
+  }
+  return arcs;
+}
+
+std::vector<MissingPackets::Window> MissingPackets::Windows() const {
+  std::vector<Window> windows;
+  std::ranges::copy_if(windows_, std::back_inserter(windows), &Window::is_certain);
+  const std::vector<Arc> arcs = SilentArcs();
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    const bool is_apart = StepTo(arcs[(i + 1) % arcs.size()].from, arcs[i].to) >= kLeastWindow;
+    if (arcs.size() > 2 || !is_apart) return windows;
+  }
+  for (const Arc& arc : arcs) {
+    const bool is_known = std::ranges::any_of(
+        windows_, [&](const Window& window) { return arc.Holds(window.arc.middle()); });
+    const auto window = is_known ? std::nullopt : WindowAt(arc);
+    if (window) windows.push_back(*window);
+  }
+  return windows;
+}
+
+std::optional<MissingPackets::Window> MissingPackets::WindowAt(const Arc& arc) const {
+  std::vector<const Gap*> gaps;
+  auto num_missing = num_missing_;
+  for (const Gap& gap : gaps_) {
+    if (!arc.Holds(gap.arc.middle())) ++num_missing[std::llround(gap.packets)];
+    if (gap.turns < 1.0 && gap.NumPasses(arc) == 1.0) gaps.push_back(&gap);
+  }
+  const std::int64_t most_missing = Quantile(num_missing, 0.9);
+  // Where nothing else is missing, edges that wander say that there is no window, but slowly.
+  if (gaps.size() < (most_missing > 0 ? 4U : 5U)) return std::nullopt;
+  const double packet = kAzimuthUnitsPerTurn * gaps[0]->turns / (gaps[0]->packets + 1.0);
+  const auto slack = [&](std::int64_t num_packets) {
+    return 2 * kBin + std::llround(packet * static_cast<double>(num_packets + 1));
+  };
+  const std::int64_t most = slack(most_missing);
+  if (arc.width() < 2 * most) return std::nullopt;
+  const auto apart =
+      std::ranges::partition(gaps, [&](const Gap* gap) { return arc.IsAllOf(gap->arc, most); });
+  if (2 * std::ranges::ssize(apart) > std::ranges::distance(gaps.begin(), apart.begin())) {
+    return std::nullopt;
+  }
+  // What is missing regularly is missing there, too.
+  const std::int64_t usual = Quantile(num_missing, 0.5);
+  const auto middle = gaps.begin() + std::ranges::distance(gaps.begin(), apart.begin()) / 2;
+  std::ranges::nth_element(gaps.begin(), middle, apart.begin(), {}, &Gap::packets);
+  return Window{.arc = arc,
+                .packets = (*middle)->packets - static_cast<double>(usual),
+                .slack = usual == 0 ? slack(0) : 0};
+}
+
+PacketTally MissingPackets::lost() const {
+  PacketTally lost = lost_;
+  CountLost(Windows(), lost);
+  return lost;
 }
 
 }  // namespace railcast

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -41,13 +42,90 @@ struct PacketTally {
   }
 };
 
+/// Counts what is missing among packets that have times, but no numbers.
+///
+/// What is missing in a gap is known by its time. Where the sensor is silent turn by turn, in a
+/// window, it has sent nothing. A window is known by the packets whose blocks lie on both sides of
+/// it; else it is an arc of at least 20 deg in which no packet lies in 32 turns, whose edges are
+/// those of most gaps there, of four or five. A sensor has at most two of these, at least 20 deg
+/// apart: what is missing regularly leaves more, narrower or wandering ones.
+class MissingPackets {
+ public:
+  /// Takes the next packet.
+  /// @param last The one before it in time.
+  /// @param gap_ns From that one's time to its own.
+  /// @param captured_ns Likewise, of the times at which they were captured.
+  /// @param number OrderedPacket::number of the next one.
+  void Look(const PacketMark& last,
+            const PacketMark& next,
+            std::int64_t gap_ns,
+            std::int64_t captured_ns,
+            std::size_t number);
+
+  [[nodiscard]] PacketTally lost() const;
+
+ private:
+  static constexpr std::size_t kNumBins = 3600;
+
+  /// Azimuths in 0.01 deg.
+  struct Arc {
+    std::int64_t from{};
+    std::int64_t to{};
+
+    [[nodiscard]] std::int64_t width() const;
+    [[nodiscard]] std::int64_t middle() const;
+    [[nodiscard]] bool Holds(std::int64_t azimuth) const;
+    /// Whether another one has no more than `most` beyond either end.
+    [[nodiscard]] bool IsAllOf(const Arc& other, std::int64_t most) const;
+  };
+  struct Window {
+    Arc arc;
+    double packets{};        ///< That the sensor does not send there, in a turn.
+    std::int64_t slack{};    ///< By which a gap's arc may be wider if nothing is missing.
+    bool is_certain = true;  ///< Else it has to be seen once more.
+  };
+  struct Gap {
+    std::int64_t begin{};  ///< Azimuth of the first block of the packet before it.
+    Arc arc;
+    double turns{};    ///< From `begin` to the packet behind it.
+    double packets{};  ///< That are missing if there is no window.
+    std::size_t number{};
+
+    [[nodiscard]] double NumPasses(const Arc& window) const;
+  };
+
+  [[nodiscard]] double TurnNs(const PacketMark& mark) const;
+  void Turn(const PacketMark& last, const PacketMark& next, std::int64_t gap_ns);
+  void Cover(const PacketMark& mark);
+  void EndWindows(const PacketMark& mark);
+  void AddWindow(const Arc& arc, const PacketMark& mark);
+  void Settle();
+  void CountLost(const std::vector<Window>& windows, PacketTally& lost) const;
+  [[nodiscard]] bool IsCovered(const Arc& arc) const;
+  [[nodiscard]] std::vector<Arc> SilentArcs() const;
+  [[nodiscard]] std::vector<Window> Windows() const;
+  [[nodiscard]] std::optional<Window> WindowAt(const Arc& arc) const;
+
+  bool has_begun_{};
+  std::vector<Window> windows_;  ///< That are known.
+  // How often how many packets are missing between two that follow each other.
+  std::map<std::int64_t, std::size_t> num_missing_;
+  double turned_{};     ///< How many turns the rotor has made of late,
+  double turned_ns_{};  ///< and in which time.
+  PacketTally lost_;
+  // Since the gaps were last settled:
+  std::vector<Gap> gaps_;  ///< In which there may be a window.
+  std::vector<bool> is_covered_ = std::vector<bool>(kNumBins);
+  std::size_t num_turns_{};
+};
+
 /// Puts the packets of a sensor into the order in which it sent them.
 ///
 /// A packet waits until kWindow others have come, so that those that were captured earlier than
 /// what was sent before them come into their places, and that one that was captured several times
 /// is one. What comes later than that is left out. A sensor whose numbers are all 0 is known by its
-/// times. Where the numbers or times of all further
-/// packets are lower, as after the sensor's start or where its clock was set back, they begin anew.
+/// times. Where the numbers or times of all further packets are lower, as after the sensor's start
+/// or where its clock was set back, they begin anew.
 class PacketOrder {
  public:
   static constexpr std::size_t kWindow = 64;
@@ -83,19 +161,6 @@ class PacketOrder {
     PacketMark mark{};
   };
 
-  /// Azimuths between which nothing was sent: packets were lost, or it is a window.
-  struct Silence {
-    std::int64_t from{};
-    std::int64_t to{};
-    std::int64_t order{};        ///< Of the packet behind it, in the last of its turns.
-    std::int64_t num_turns = 1;  ///< Less those in which something was sent.
-    PacketTally lost{};          ///< If it is no window.
-
-    [[nodiscard]] bool is_window() const { return num_turns >= 3; }
-    [[nodiscard]] std::int64_t middle() const;
-    [[nodiscard]] bool IsNear(const Silence& other) const;
-  };
-
   [[nodiscard]] bool JoinSame(const Held& held, std::deque<Held>& others);
   [[nodiscard]] bool IsKnown(const Held& held) const;
   [[nodiscard]] bool MayBeSetBack(const Held& held) const;
@@ -106,12 +171,6 @@ class PacketOrder {
   void ReleaseFirst();
   void ReleaseAll();
   void CountLost(const Held& next);
-  void EndSilences(const Held& next);
-  void AddSilence(Silence silence);
-  /// How long the windows within a gap last.
-  [[nodiscard]] std::int64_t SilentNs(const PacketMark& last,
-                                      std::int64_t gap_ns,
-                                      const Silence& within) const;
 
   std::deque<Held> held_;    ///< By rising order.
   std::deque<Held> behind_;  ///< As they came: all since a packet that was not behind the released.
@@ -121,7 +180,7 @@ class PacketOrder {
   std::optional<std::pair<std::int64_t, PacketMark>> newest_;  ///< Order and mark.
   std::optional<std::int64_t> zero_ns_;  ///< Time of the last packet, if its number was 0.
   bool ignores_numbers_ = false;         ///< They are all 0.
-  std::vector<Silence> silences_;
+  MissingPackets missing_;
   PacketTally lost_, doubled_, late_, reordered_;
 };
 

@@ -281,7 +281,7 @@ PacketMark MarkOf(const SpinningModel& model, std::span<const char> packet) {
     mark.turn_ns = mark.packet_ns * kAzimuthUnitsPerTurn /
                    (mark.azimuth_step * static_cast<std::int64_t>(num_loops));
   }
-  if (turned <= most || turned >= kAzimuthUnitsPerTurn / 2) return mark;
+  if (turned <= most || turned >= kAzimuthUnitsPerTurn - most) return mark;
   std::int64_t longest = 0;
   for (std::size_t i = 1; i < loops.size(); ++i) {
     const std::int64_t before = AzimuthOf(model, packet, loops[i - 1]);

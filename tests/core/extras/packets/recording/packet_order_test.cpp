@@ -3,11 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <filesystem>
+#include <functional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/extras/packets/pcap/pcap_reader.h"
 #include "core/extras/packets/recording/capture_sensor.h"
+#include "core/extras/packets/spinning/spinning_decoder.h"
 #include "tests/core/extras/packets/hesai/made_packet.h"
 #include "tests/core/extras/packets/pcap/made_capture.h"
 #include "tests/core/extras/packets/velodyne/made_scan.h"
@@ -22,13 +28,17 @@ namespace {
 
 /// The packets of turns of a sensor.
 /// @param sensor Its file; empty: the format's.
+std::vector<std::string> Turns(std::uint32_t num, const char* format, const ScanSpec& sensor) {
+  const MadeScan scan(sensor);
+  const std::uint32_t returns = ReturnModeOfFormat(format) == ReturnMode::kDual ? 2 : 1;
+  std::vector<Frame> frames;
+  for (std::uint32_t i = 0; i < num; ++i) frames.push_back(scan.MakeFrame(i, returns));
+  return DataTexts(EncodeAll(format, scan, frames));
+}
 std::vector<std::string> Turns(std::uint32_t num,
                                const char* format = "vlp16",
                                const std::string& sensor = {}) {
-  const MadeScan scan(ReadSensor(sensor.empty() ? std::string(SensorOf(format)) : sensor));
-  std::vector<Frame> frames;
-  for (std::uint32_t i = 0; i < num; ++i) frames.push_back(scan.MakeFrame(i));
-  return DataTexts(EncodeAll(format, scan, frames));
+  return Turns(num, format, ReadSensor(sensor.empty() ? std::string(SensorOf(format)) : sensor));
 }
 
 std::vector<std::string> TwoTurns(const char* format = "vlp16") {
@@ -175,6 +185,107 @@ TEST(PacketOrder, MissesNothingWhereASensorIsSilentTurnByTurn) {
   }
   ASSERT_GT(num_lost, 2U);
   EXPECT_EQ(ReadPackets(gappy).Number(RemarkKind::kPacketsLost), num_lost);
+}
+
+/// Whether a packet is kept, by its number.
+using IsKept = std::function<bool(std::size_t)>;
+
+/// Of what others write on slow disks, in sampled recordings, or while something else is done.
+std::vector<IsKept> Losses() {
+  std::vector<IsKept> losses = {[](std::size_t /*packet*/) { return true; },
+                                [](std::size_t packet) { return packet < 40 || packet >= 100; }};
+  for (const std::size_t each : {2U, 3U, 4U, 10U, 30U}) {
+    losses.emplace_back([each](std::size_t packet) { return packet % each == 0; });
+  }
+  for (const std::size_t each : {3U, 11U, 37U}) {
+    losses.emplace_back([each](std::size_t packet) { return packet % each != 1; });
+  }
+  for (const std::size_t each : {12U, 25U, 75U}) {
+    losses.emplace_back([each](std::size_t packet) { return packet % each < 6; });
+  }
+  for (const std::uint32_t percent : {5U, 50U, 80U}) {
+    losses.emplace_back([percent](std::size_t packet) {
+      return std::mt19937(static_cast<std::uint32_t>(packet))() % 100 >= percent;
+    });
+  }
+  return losses;
+}
+
+/// How many of the packets that are not kept are missing between those that are, and how many are
+/// said to be lost.
+std::pair<std::size_t, std::size_t> MissingAndLost(const std::string& format,
+                                                   const std::vector<std::string>& packets,
+                                                   const IsKept& is_kept) {
+  const SpinningDecoder decoder(*FindSpinningModel(format));
+  PacketOrder order;
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    if (!is_kept(i)) continue;
+    kept.push_back(i);
+    order.Add({.bytes = {packets[i].begin(), packets[i].end()},
+               .places = {},
+               .number = i,
+               .captured_ns = static_cast<std::int64_t>(i) * 1'000'000},
+              decoder.MarkOf(packets[i]));
+    while (order.Next()) continue;
+  }
+  order.End();
+  return {kept.back() - kept.front() + 1 - kept.size(), order.lost().number};
+}
+
+TEST(PacketOrder, CountsLossesThatAreRegularAndThoseThatAreNot) {
+  for (const auto& [format, sensor] : {std::pair("vlp16", "vlp16"),
+                                       {"vlp16", "vlp16_20hz"},
+                                       {"vlp16-dual", "vlp16"},
+                                       {"hdl32e", "hdl32e"},
+                                       {"vlp32c", "vlp32c"}}) {
+    const auto packets = Turns(9, format, sensor);
+    for (std::size_t i = 0; const IsKept& is_kept : Losses()) {
+      const auto [missing, lost] = MissingAndLost(format, packets, is_kept);
+      EXPECT_EQ(lost, missing) << sensor << ", " << i;
+      ++i;
+    }
+  }
+}
+
+// Windows of real sensors begin and end within packets. How many packets are missing is only known
+// where one of those is there.
+TEST(PacketOrder, CountsLossesBesideAWindowOfTheSensor) {
+  for (const std::string format : {"vlp16", "hdl32e", "vlp32c"}) {
+    for (const std::array<double, 2> window_deg :
+         {std::array{300.0, 60.0}, {90.0, 80.5}, {10.0, 160.0}, {100.0, 131.0}}) {
+      ScanSpec scan = ReadSensor(format);
+      std::get<SpinningSpec>(scan.pattern).azimuth_window_deg = window_deg;
+      const auto packets = Turns(12, format.c_str(), scan);
+      const auto losses = Losses();
+      for (const std::size_t loss : {0U, 1U, 2U, 7U, 8U, 9U, 13U}) {
+        const auto [missing, lost] = MissingAndLost(format, packets, losses[loss]);
+        EXPECT_EQ(lost, missing) << format << ", " << window_deg[0] << ", " << loss;
+      }
+    }
+  }
+}
+
+// That of the VLP-32C is silent over half of the turn.
+TEST(PacketOrder, CountsLossesInRealCaptures) {
+  const std::filesystem::path data = RAILCAST_SHARED_DATA_DIR;
+  for (const auto& [format, name] : {std::pair("vlp32c", "lidar_packets_nebula/vlp32c_single.pcap"),
+                                     {"vlp16-dual", "lidar_packets_nebula/vlp16_dual.pcap"},
+                                     {"hdl32e", "lidar_velodyne_more/hdl32e.pcap"}}) {
+    if (!exists(data / name)) GTEST_SKIP() << data / name << " is not there";
+    PcapReader reader(data / name);
+    std::vector<std::string> packets;
+    while (const auto datagram = reader.Next()) {
+      packets.emplace_back(datagram->payload.begin(), datagram->payload.end());
+    }
+    for (std::size_t i = 0; const IsKept& is_kept : Losses()) {
+      const auto [missing, lost] = MissingAndLost(format, packets, is_kept);
+      // Where 13 packets are left of 379, they do not tell the window.
+      const bool is_told = name != std::string("lidar_packets_nebula/vlp32c_single.pcap") || i != 6;
+      if (is_told) EXPECT_EQ(lost, missing) << name << ", " << i;
+      ++i;
+    }
+  }
 }
 
 TEST(PacketOrder, TakesNoRandomLossesForAWindow) {
