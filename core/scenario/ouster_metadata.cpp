@@ -1,6 +1,7 @@
 #include "core/scenario/ouster_metadata.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -235,6 +236,35 @@ void ReadProfile(MetadataReader& reader, OusterMetadata& metadata) {
                       "must be STANDARD or FUSA for packets to be read");
 }
 
+/// The firmware's version in a revision such as "ousteros-image-prod-aries-v2.0.0-rc.2+2020";
+/// nothing if it has none, as that of a development build.
+std::optional<std::pair<unsigned, unsigned>> VersionIn(std::string_view revision) {
+  const char* const end = revision.data() + revision.size();
+  for (std::size_t i = revision.find('v'); i < revision.size(); i = revision.find('v', i + 1)) {
+    std::pair<unsigned, unsigned> version;
+    const auto major = std::from_chars(revision.data() + i + 1, end, version.first);
+    if (major.ec != std::errc() || major.ptr == end || *major.ptr != '.') continue;
+    if (std::from_chars(major.ptr + 1, end, version.second).ec == std::errc()) return version;
+  }
+  return std::nullopt;
+}
+
+// Ouster, firmware user manual 2.0, "lidar data packet format": reflectivity is a 16-bit unsigned
+// integer whose calibration "has not currently been rigorously implemented"; that of 2.1 has 8
+// bits. The profile is named from 2.2 on.
+void ReadReflectivity(MetadataReader& reader, OusterMetadata& metadata) {
+  if (metadata.profile != OusterProfile::kLegacy) return;
+  for (const std::string_view key : {"build_rev", "image_rev"}) {
+    const MetadataEntry entry = reader.Find(kSensorInfo, key);
+    if (entry.json == nullptr || !entry.json->is_string()) continue;
+    const auto version = VersionIn(entry.json->get_ref<const std::string&>());
+    if (!version) continue;
+    metadata.has_wide_reflectivity = *version < std::pair(2U, 1U);
+    return;
+  }
+  metadata.has_wide_reflectivity = reader.Find(kDataFormat, "udp_profile_lidar").json == nullptr;
+}
+
 void ReadDataFormat(MetadataReader& reader, OusterMetadata& metadata) {
   constexpr std::uint32_t kUsualColumnsPerPacket = 16;
   metadata.columns_per_packet = kUsualColumnsPerPacket;
@@ -426,6 +456,7 @@ OusterMetadata ParseOusterMetadata(const std::string& text) {
   ReadIdentity(reader, metadata);
   ReadMode(reader, metadata);
   ReadDataFormat(reader, metadata);
+  ReadReflectivity(reader, metadata);
   ReadBeams(reader, metadata);
   ReadOrigin(reader, metadata);
   ReadTransforms(reader, metadata);

@@ -57,6 +57,9 @@ struct OusterMetadata {
   std::array<std::uint32_t, 2> column_window{};
   OusterProfile profile = OusterProfile::kLegacy;
   bool has_fusa_header{};  ///< The packets' header is that of functional safety.
+  /// LEGACY packets of firmware before 2.1, or that is not said: reflectivity has 16 bits of no
+  /// known scale, and not a byte.
+  bool has_wide_reflectivity{};
   /// Why packets cannot be read or made, although beams, columns and rate are known.
   std::vector<Fault> packet_faults{};
   std::vector<OusterBeam> beams;  ///< By rising pixel; pixels without a beam have none.

@@ -76,6 +76,34 @@ TEST(OusterMetadata, OfTheTwoLayoutsSayTheSame) {
   }
 }
 
+TEST(OusterMetadata, HaveA16BitReflectivityInLegacyPacketsOfFirmwareBefore2_1) {
+  const auto is_wide = [](const char* build, const char* image, const char* profile) {
+    auto metadata = MadeOusterMetadata("LEGACY");
+    auto& info = metadata["sensor_info"];
+    info.erase("image_rev");
+    if (build != nullptr) info["build_rev"] = build;
+    if (image != nullptr) info["image_rev"] = image;
+    metadata["lidar_data_format"].erase("udp_profile_lidar");
+    if (profile != nullptr) metadata["lidar_data_format"]["udp_profile_lidar"] = profile;
+    return ParseOusterMetadata(metadata.dump()).has_wide_reflectivity;
+  };
+  for (const char* old : {"v1.12.0", "v1.14.0-beta.1-928-g6cccd78", "v2.0.0", "v2.0.0-rc.2"}) {
+    EXPECT_TRUE(is_wide(old, nullptr, nullptr)) << old;
+    EXPECT_TRUE(is_wide(old, nullptr, "LEGACY")) << old;
+  }
+  for (const char* late : {"v2.1.2", "v2.2.0-rc.1", "v2.10.0", "v3.1.0-alpha.1", "v10.0.0"}) {
+    EXPECT_FALSE(is_wide(late, nullptr, nullptr)) << late;
+  }
+  EXPECT_FALSE(is_wide("v2.0.0", nullptr, "RNG19_RFL8_SIG16_NIR16"));
+  // Of builds that are numbered by their sources the image says it.
+  EXPECT_TRUE(is_wide("767798045", "ousteros-image-prod-aries-v2.0.0+20201124065024", nullptr));
+  EXPECT_FALSE(is_wide("035522cb7", "ousteros-image-dev-bootes-v3.2.0-alpha.1", "LEGACY"));
+  // Where no firmware is named, the name of a profile is of a later one.
+  EXPECT_TRUE(is_wide(nullptr, nullptr, nullptr));
+  EXPECT_TRUE(is_wide("dev", "", nullptr));
+  EXPECT_FALSE(is_wide(nullptr, nullptr, "LEGACY"));
+}
+
 // Of 64 pixels, 16 belong to beams.
 TEST(OusterMetadata, LeaveOutPixelsWithoutABeam) {
   if (!exists(kShared)) GTEST_SKIP() << kShared << " is not there";

@@ -237,10 +237,10 @@ std::optional<std::string> OusterDecoder::StoreReturn(const EditedReturn& edited
     stored.range_mm = static_cast<std::uint32_t>(num_units) * layout_.range_unit_mm();
   }
   if (!edited.intensity) return std::nullopt;
-  const float before = IntensityOfByte(stored.reflectivity);
+  const float before = IntensityOfByte(static_cast<std::uint8_t>(stored.reflectivity));
   stored.reflectivity = *edited.intensity;
   const float in_ratio =
-      before > 0.0F ? IntensityOfByte(stored.reflectivity) / before * stored.signal : 0.0F;
+      before > 0.0F ? IntensityOfByte(*edited.intensity) / before * stored.signal : 0.0F;
   const float signal = edited.signal.value_or(in_ratio);
   stored.signal = static_cast<std::uint16_t>(std::lround(std::clamp(signal, 0.0F, 65535.0F)));
   return std::nullopt;

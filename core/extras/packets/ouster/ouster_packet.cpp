@@ -96,6 +96,7 @@ constexpr std::uint32_t LowestBits(unsigned num) {
 OusterLayout::OusterLayout(const OusterMetadata& metadata)
     : profile_(metadata.profile),
       has_fusa_header_(metadata.has_fusa_header),
+      has_wide_reflectivity_(metadata.has_wide_reflectivity),
       num_columns_(metadata.columns_per_packet),
       num_pixels_(metadata.pixels_per_column),
       header_size_(is_legacy() ? 0 : kOusterHeaderSize),
@@ -188,7 +189,9 @@ OusterPixel OusterLayout::PixelAt(std::span<const char> packet, std::size_t plac
     OusterReturn& coded = pixel.returns[i];
     coded.range_mm = word.unit_mm * (bits & LowestBits(word.range_bits));
     coded.flags = static_cast<std::uint8_t>(bits >> word.flags_begin & LowestBits(word.flags_bits));
-    coded.reflectivity = LoadAt<std::uint8_t>(begin + returns[i].reflectivity);
+    const char* const reflectivity = begin + returns[i].reflectivity;
+    coded.reflectivity = has_wide_reflectivity_ ? LoadAt<std::uint16_t>(reflectivity)
+                                                : LoadAt<std::uint8_t>(reflectivity);
     if (has_signal()) coded.signal = LoadAt<std::uint16_t>(begin + returns[i].signal);
   }
   pixel.near_ir =
@@ -208,7 +211,8 @@ void OusterLayout::StorePixel(const OusterPixel& pixel,
     const std::uint32_t bits = (coded.range_mm / word.unit_mm & LowestBits(word.range_bits)) |
                                (coded.flags & LowestBits(word.flags_bits)) << word.flags_begin;
     std::memcpy(begin + returns[i].word, &bits, word.num_bytes);
-    StoreAt<std::uint8_t>(begin + returns[i].reflectivity, coded.reflectivity);
+    std::memcpy(begin + returns[i].reflectivity, &coded.reflectivity,
+                has_wide_reflectivity_ ? 2 : 1);
     if (has_signal()) StoreAt<std::uint16_t>(begin + returns[i].signal, coded.signal);
   }
   if (has_low_rate()) {

@@ -43,10 +43,11 @@ struct OusterColumn {
 };
 
 struct OusterReturn {
-  std::uint32_t range_mm{};     ///< From the rotor's axis on; 0: none.
-  std::uint8_t flags{};         ///< Profile-dependent.
-  std::uint8_t reflectivity{};  ///< As of velodyne_packet.h's reflectivity bytes.
-  std::uint16_t signal{};       ///< Photons; 0 in profiles without it.
+  std::uint32_t range_mm{};  ///< From the rotor's axis on; 0: none.
+  std::uint8_t flags{};      ///< Profile-dependent.
+  /// As of velodyne_packet.h's reflectivity bytes, unless OusterMetadata::has_wide_reflectivity.
+  std::uint16_t reflectivity{};
+  std::uint16_t signal{};  ///< Photons; 0 in profiles without it.
 
   bool operator==(const OusterReturn&) const = default;
 };
@@ -125,7 +126,7 @@ class OusterLayout {
   }
 
   OusterProfile profile_;
-  bool has_fusa_header_;
+  bool has_fusa_header_, has_wide_reflectivity_;
   std::size_t num_columns_, num_pixels_;
   std::size_t header_size_, column_header_size_, pixel_size_, column_size_, packet_size_;
 };

@@ -19,14 +19,20 @@ namespace {
 
 constexpr float kNoPoint = std::numeric_limits<float>::quiet_NaN();
 
+/// The foreign field that has intensities of no known scale; empty if frames have intensities.
+std::string_view UnknownField(IntensityBytes bytes) {
+  if (bytes == IntensityBytes::kUnknownWide) return "intensity_16_bit";
+  return bytes == IntensityBytes::kUnknown ? "intensity_byte" : "";
+}
+
 float IntensityOf(const TurnPoint& point, IntensityBytes bytes) {
-  const auto byte = static_cast<float>(point.intensity);
-  if (bytes == IntensityBytes::kUnknown) return byte;
+  const auto value = static_cast<float>(point.intensity);
+  if (!UnknownField(bytes).empty()) return value;
   // Bytes up to 100 are percent in either case.
   if (bytes == IntensityBytes::kVelodyne || point.intensity <= 100) {
-    return IntensityOfByte(point.intensity);
+    return IntensityOfByte(static_cast<std::uint8_t>(point.intensity));
   }
-  return byte / 100.0F;
+  return value / 100.0F;
 }
 
 void FillSlots(const SensorTurn& turn, const TurnShape& shape, Frame& frame) {
@@ -96,7 +102,9 @@ std::span<const char> FirstPacket(std::span<const char> payload, std::size_t siz
 CaptureSensor OusterSensor(const OusterMetadata& metadata) {
   return {.name = metadata.product_line.empty() ? "an Ouster sensor" : metadata.product_line,
           .packet_size = OusterPacketSize(metadata),
-          .shape = ShapeOfTurns(ChannelsOf(metadata), IntensityBytes::kVelodyne,
+          .shape = ShapeOfTurns(ChannelsOf(metadata),
+                                metadata.has_wide_reflectivity ? IntensityBytes::kUnknownWide
+                                                               : IntensityBytes::kVelodyne,
                                 BeamsOfOuster(metadata)),
           .decoder = OusterDecoder(metadata)};
 }
@@ -190,7 +198,7 @@ std::string NameOfStranger(std::span<const char> payload) {
 }  // namespace
 
 std::optional<std::uint8_t> ByteOfIntensity(float intensity, IntensityBytes bytes) {
-  if (bytes == IntensityBytes::kUnknown) return std::nullopt;
+  if (!UnknownField(bytes).empty()) return std::nullopt;
   return bytes == IntensityBytes::kVelodyne ? ReflectivityByte(intensity) : PercentByte(intensity);
 }
 
@@ -225,8 +233,8 @@ RecordedFrame MakeTurnFrame(const SensorTurn& turn,
   FillSlots(turn, shape, frame);
   FillPoints(turn, shape, frame);
   recorded.foreign = FieldsOf(turn, frame);
-  if (shape.intensity == IntensityBytes::kUnknown) {
-    recorded.foreign.push_back({"intensity_byte", frame.intensity});
+  if (const std::string_view field = UnknownField(shape.intensity); !field.empty()) {
+    recorded.foreign.push_back({std::string(field), frame.intensity});
     std::ranges::fill(frame.intensity, kNoPoint);
   } else {
     recorded.fields.emplace("intensity");

@@ -12,12 +12,12 @@ namespace railcast {
 struct TurnPoint {
   float x{}, y{}, z{};  ///< In m, in railcast's sensor axes: x forward, y left, z up.
   float range_m{};
-  float azimuth_rad{};     ///< Clockwise from forward, 0 to 2 pi.
-  std::int64_t time_ns{};  ///< Time since the turn's stamp.
-  std::uint32_t column{};  ///< Index of the firing cycle in the turn, from 0.
-  std::uint16_t ring{};    ///< Row by rising elevation, 0 the lowest.
-  std::uint8_t laser{};    ///< The vendor's number of the laser, from 0.
-  std::uint8_t intensity{};
+  float azimuth_rad{};        ///< Clockwise from forward, 0 to 2 pi.
+  std::int64_t time_ns{};     ///< Time since the turn's stamp.
+  std::uint32_t column{};     ///< Index of the firing cycle in the turn, from 0.
+  std::uint16_t ring{};       ///< Row by rising elevation, 0 the lowest.
+  std::uint8_t laser{};       ///< The vendor's number of the laser, from 0.
+  std::uint16_t intensity{};  ///< As IntensityBytes says.
   /// 0; in dual mode 0 for the last return and 1 for the other one, which is left out where it
   /// repeats the last.
   std::uint8_t return_index{};

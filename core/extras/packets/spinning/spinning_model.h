@@ -17,7 +17,8 @@ namespace railcast {
 enum class IntensityBytes {
   kVelodyne,  ///< Reflectivity as defined in velodyne_packet.h.
   kPercent,
-  kUnknown  ///< No reflectivity: frames have the bytes as the foreign field "intensity_byte".
+  kUnknown,     ///< No reflectivity: frames have the bytes as the foreign field "intensity_byte".
+  kUnknownWide  ///< Likewise, 16 bits: "intensity_16_bit".
 };
 
 /// The data packets of a spinning sensor, of Velodyne or Hesai: an entry of packets.json, which has

@@ -111,7 +111,8 @@ class Remade {
   void Add(const TurnPoint& point) {
     const auto [loop, channel] = places_.at(point.ring);
     const auto distance = static_cast<std::uint16_t>(std::lround(250.0F * point.range_m));
-    returns_[{point.column, loop, point.laser, point.return_index}] = {distance, point.intensity};
+    returns_[{point.column, loop, point.laser, point.return_index}] = {
+        distance, static_cast<std::uint8_t>(point.intensity)};
     const double speed_deg_per_us = Speed_deg_per_us();
     const ChannelSpec& spec = model_.channels[channel];
     const double loop_us = 1e-3 * static_cast<double>(model_.loop_ns) * static_cast<double>(loop);

@@ -74,6 +74,23 @@ TEST(OusterRecording, TakesTheMetadataThatAreNamedBehindTheCapture) {
             "none: no such file or directory");
 }
 
+// Nearly all of them are above 255.
+TEST(OusterRecording, OfFirmwareBefore2_1HasIntensitiesOfUnknownScale) {
+  const OusterCapture& capture = kOusterCaptures[5];
+  if (!capture.is_there()) GTEST_SKIP() << capture.pcap << " is not there";
+  const auto frames = ReadAll(OusterCapture::Path(capture.pcap));
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_FALSE(frames[0].Has("intensity"));
+  ASSERT_EQ(frames[0].foreign.size(), 3U);
+  EXPECT_EQ(frames[0].foreign[2].name, "intensity_16_bit");
+  std::size_t num_above = 0;
+  for (std::size_t i = 0; i < frames[0].frame.num_slots(); ++i) {
+    ASSERT_TRUE(std::isnan(frames[0].frame.intensity[i]));
+    num_above += frames[0].foreign[2].values[i] > 255.0F ? 1 : 0;
+  }
+  EXPECT_GT(100 * num_above, 95 * NumOusterPoints(frames[0].frame));
+}
+
 class MadeOusterCapture : public testing::Test {
  protected:
   /// Writes a capture of datagrams of these sizes, each of which begins as a lidar packet.

@@ -108,7 +108,9 @@ TEST(OusterDecoder, OfAWindowHasItsColumns) {
 class MadePackets {
  public:
   explicit MadePackets(const std::string& profile = "RNG19_RFL8_SIG16_NIR16")
-      : metadata_(ParseOusterMetadata(MadeOusterMetadataText(profile))), layout_(metadata_) {}
+      : MadePackets(ParseOusterMetadata(MadeOusterMetadataText(profile))) {}
+  explicit MadePackets(OusterMetadata metadata)
+      : metadata_(std::move(metadata)), layout_(metadata_) {}
 
   [[nodiscard]] const OusterMetadata& metadata() const { return metadata_; }
   [[nodiscard]] std::vector<char> Packet(std::uint32_t frame, std::uint16_t first) const {
@@ -173,6 +175,45 @@ TEST(OusterDecoder, OrdersPacketsOfUnmeasuredColumnsByTheirNumbers) {
   EXPECT_FALSE(decoder.MarkOf(packet).has_number);
   store(60'000, 1);
   EXPECT_FALSE(decoder.MarkOf(packet).has_number);
+}
+
+/// LEGACY packets of a firmware, with as many columns each.
+OusterMetadata LegacyOf(const char* firmware, int columns) {
+  auto metadata = MadeOusterMetadata("LEGACY");
+  metadata["sensor_info"]["build_rev"] = firmware;
+  metadata["lidar_data_format"]["columns_per_packet"] = columns;
+  return ParseOusterMetadata(metadata.dump());
+}
+
+TEST(OusterDecoder, KeepsAll16BitsOfReflectivityOfFirmwareBefore2_1) {
+  for (const int columns : {16, 64}) {
+    const MadePackets made(LegacyOf("v2.0.0-rc.2", columns));
+    const OusterLayout layout(made.metadata());
+    OusterDecoder decoder(made.metadata());
+    std::vector<char> packet = made.Packet(1, 0);
+    const OusterPixel recorded{{OusterReturn{.range_mm = 5000, .reflectivity = 16'237}}, 9};
+    layout.Store(recorded, 3, 2, packet);
+    const std::vector<SensorTurn> turns = TurnsOfPackets(decoder, std::vector{packet});
+    EXPECT_EQ(turns.at(0).points.at(3).intensity, 16'237U);
+    // What stays is written as it was; what is new has none.
+    const std::vector<char> before = packet;
+    const FiringPlace place{.packet = 0,
+                            .first = static_cast<std::uint32_t>(layout.PlaceOfPixel(3, 2))};
+    EXPECT_EQ(decoder.Store({EditedReturn{.from = 0}}, place, packet), std::nullopt);
+    EXPECT_EQ(packet, before);
+    EXPECT_EQ(decoder.Store({EditedReturn{.range_m = 7.0F}}, place, packet), std::nullopt);
+    EXPECT_EQ(layout.PixelOf(packet, 3, 2).returns[0].reflectivity, 0U);
+    EXPECT_EQ(layout.PixelOf(packet, 3, 2).returns[0].range_mm, 7016U);
+  }
+}
+
+TEST(OusterDecoder, TakesTheByteOfReflectivityOfFirmwareSince2_1) {
+  const MadePackets made(LegacyOf("v2.1.2", 16));
+  const OusterLayout layout(made.metadata());
+  OusterDecoder decoder(made.metadata());
+  std::vector<char> packet = made.Packet(1, 0);
+  StoreAt<std::uint16_t>(packet.data() + layout.PlaceOfPixel(3, 2) + 4, 0x3F6D);
+  EXPECT_EQ(TurnsOfPackets(decoder, std::vector{packet}).at(0).points.at(3).intensity, 0x6DU);
 }
 
 // LEGACY packets do not say which metadata are theirs.

@@ -50,7 +50,7 @@ TEST(OusterPacket, OfARealCaptureHasTheFieldsThatTheMakersDecoderFinds) {
         const std::size_t slot = row * kColumns + column.measurement_id;
         ranges[slot] = pixel.returns[0].range_mm;
         signals[slot] = pixel.returns[0].signal;
-        reflectivities[slot] = pixel.returns[0].reflectivity;
+        reflectivities[slot] = static_cast<std::uint8_t>(pixel.returns[0].reflectivity);
         flags[slot] = pixel.returns[0].flags;
         near_irs[slot] = pixel.near_ir;
       }
@@ -99,7 +99,7 @@ std::vector<char> OwnBits(const OusterLayout& layout) {
                 .thermal_shutdown = 0xFF,
                 .shot_limiting = 0xFF},
                bits);
-  const OusterReturn full{0xFFFFFFFF, 0xFF, 0xFF, 0xFFFF};
+  const OusterReturn full{0xFFFFFFFF, 0xFF, 0xFFFF, 0xFFFF};
   for (std::size_t i = 0; i < layout.num_columns(); ++i) {
     layout.Store({~std::uint64_t{0}, 0xFFFF, true}, i, 0xFFFFFFFF, 0xFFFFFFFF, bits);
     for (std::size_t row = 0; row < layout.num_pixels(); ++row) {
