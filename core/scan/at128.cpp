@@ -1,11 +1,16 @@
 #include "core/scan/at128.h"
 
+#include <endian.h>
+
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <memory>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "core/base/bytes.h"
 #include "core/base/error.h"
@@ -46,6 +51,69 @@ void CheckFile(std::span<const char> bytes) {
   if (LoadAt<std::uint8_t>(bytes.data() + 15) == 0) {
     throw InputError("resolution must be > 0 (got 0)");
   }
+}
+
+constexpr std::size_t kHashSize = 32;
+using Hash = std::array<char, kHashSize>;
+
+/// SHA-256 (FIPS 180-4, 6.2).
+Hash Sha256(std::span<const char> bytes) {
+  constexpr std::array<std::uint32_t, 64> kRounds = {
+      0x428a2f98, 0x71374491, 0xb5c0fbcf, 0xe9b5dba5, 0x3956c25b, 0x59f111f1, 0x923f82a4,
+      0xab1c5ed5, 0xd807aa98, 0x12835b01, 0x243185be, 0x550c7dc3, 0x72be5d74, 0x80deb1fe,
+      0x9bdc06a7, 0xc19bf174, 0xe49b69c1, 0xefbe4786, 0x0fc19dc6, 0x240ca1cc, 0x2de92c6f,
+      0x4a7484aa, 0x5cb0a9dc, 0x76f988da, 0x983e5152, 0xa831c66d, 0xb00327c8, 0xbf597fc7,
+      0xc6e00bf3, 0xd5a79147, 0x06ca6351, 0x14292967, 0x27b70a85, 0x2e1b2138, 0x4d2c6dfc,
+      0x53380d13, 0x650a7354, 0x766a0abb, 0x81c2c92e, 0x92722c85, 0xa2bfe8a1, 0xa81a664b,
+      0xc24b8b70, 0xc76c51a3, 0xd192e819, 0xd6990624, 0xf40e3585, 0x106aa070, 0x19a4c116,
+      0x1e376c08, 0x2748774c, 0x34b0bcb5, 0x391c0cb3, 0x4ed8aa4a, 0x5b9cca4f, 0x682e6ff3,
+      0x748f82ee, 0x78a5636f, 0x84c87814, 0x8cc70208, 0x90befffa, 0xa4506ceb, 0xbef9a3f7,
+      0xc67178f2};
+  std::array<std::uint32_t, 8> state = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
+                                        0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+  constexpr std::size_t kBlock = 64;
+  std::vector<char> padded(bytes.begin(), bytes.end());
+  padded.push_back('\x80');
+  while (padded.size() % kBlock != kBlock - sizeof(std::uint64_t)) padded.push_back('\0');
+  const std::uint64_t num_bits = htobe64(8 * bytes.size());
+  padded.resize(padded.size() + sizeof num_bits);
+  std::memcpy(padded.data() + padded.size() - sizeof num_bits, &num_bits, sizeof num_bits);
+  for (std::size_t block = 0; block < padded.size(); block += kBlock) {
+    std::array<std::uint32_t, 64> words{};
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      if (i < 16) {
+        words[i] = be32toh(LoadAt<std::uint32_t>(padded.data() + block + 4 * i));
+        continue;
+      }
+      const std::uint32_t a = words[i - 15];
+      const std::uint32_t b = words[i - 2];
+      words[i] = words[i - 16] + (std::rotr(a, 7) ^ std::rotr(a, 18) ^ (a >> 3U)) + words[i - 7] +
+                 (std::rotr(b, 17) ^ std::rotr(b, 19) ^ (b >> 10U));
+    }
+    auto [a, b, c, d, e, f, g, h] = state;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      const std::uint32_t first = h + (std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25)) +
+                                  ((e & f) ^ (~e & g)) + kRounds[i] + words[i];
+      const std::uint32_t second =
+          (std::rotr(a, 2) ^ std::rotr(a, 13) ^ std::rotr(a, 22)) + ((a & b) ^ (a & c) ^ (b & c));
+      h = std::exchange(g, std::exchange(f, std::exchange(e, d + first)));
+      d = std::exchange(c, std::exchange(b, std::exchange(a, first + second)));
+    }
+    const std::array<std::uint32_t, 8> added = {a, b, c, d, e, f, g, h};
+    for (std::size_t i = 0; i < state.size(); ++i) state[i] += added[i];
+  }
+  Hash hash{};
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const std::uint32_t word = htobe32(state[i]);
+    std::memcpy(hash.data() + 4 * i, &word, sizeof word);
+  }
+  return hash;
+}
+
+void CheckHash(std::span<const char> bytes) {
+  const auto hash = bytes.last(kHashSize);
+  if (std::ranges::equal(Sha256(bytes.first(bytes.size() - kHashSize)), hash)) return;
+  throw InputError("is damaged: its last 32 bytes must be the SHA-256 of those before");
 }
 
 double InTurn(double angle_deg) {
@@ -164,7 +232,11 @@ bool IsAt128File(const std::filesystem::path& file) {
 
 At128Correction ReadAt128Correction(const std::filesystem::path& file) {
   const std::string bytes = ReadFileWhole(file);
-  return AtPlace(ShownPath(file) + ": ", [&] { return At128Correction(bytes); });
+  return AtPlace(ShownPath(file) + ": ", [&] {
+    CheckFile(bytes);
+    CheckHash(bytes);
+    return At128Correction(bytes);
+  });
 }
 
 std::vector<ChannelSpec> At128Channels(const At128Correction& correction) {

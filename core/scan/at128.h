@@ -64,8 +64,8 @@ class At128Correction {
 /// @throws InputError if it cannot be read.
 [[nodiscard]] bool IsAt128File(const std::filesystem::path& file);
 
-/// Reads a correction file.
-/// @throws InputError "file: rule (got value)".
+/// Reads a correction file, whose last 32 bytes are the SHA-256 of those before.
+/// @throws InputError "file: rule (got value)"; also if it is damaged.
 [[nodiscard]] At128Correction ReadAt128Correction(const std::filesystem::path& file);
 
 /// From one block, in which each laser fires once, to the next.

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "core/base/bytes.h"
+#include "core/base/input_file.h"
 #include "core/base/units.h"
+#include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/core/scan/pattern_angles.h"
 #include "tests/support/sensor_file.h"
@@ -163,6 +165,26 @@ TEST(At128Sweep, SaysWhatIsWrong) {
   std::ofstream(cut) << "\xEE\xFF";
   EXPECT_EQ(FaultsOf({.rate_hz = 10.0, .pattern = FiringTableSpec{cut, 3}}),
             "/pattern/file: " + cut + ": must be 47176 bytes (got 2)");
+}
+
+// Any bit: of a shift by 0.01 deg, a start, an angle, what is not used, and the hash itself.
+TEST(At128Correction, ThatIsDamagedIsRefused) {
+  const TemporaryDirectory folder;
+  const std::string file = (folder.path() / "unit.dat").string();
+  const std::string whole = ReadFileWhole(RAILCAST_SOURCE_DIR "/scenarios/sensors/at128.dat");
+  const auto write = [&](const std::string& bytes) {
+    std::ofstream(file, std::ios::binary) << bytes;
+  };
+  write(whole);
+  EXPECT_NO_THROW(static_cast<void>(ReadAt128Correction(file)));
+  for (const std::size_t place : {7U, 16U, 40U, 600U, 1064U, 30'000U, 47'143U, 47'144U, 47'175U}) {
+    std::string damaged = whole;
+    damaged[place] = static_cast<char>(damaged[place] ^ 1);
+    write(damaged);
+    EXPECT_EQ(MessageOf([&] { static_cast<void>(ReadAt128Correction(file)); }),
+              file + ": is damaged: its last 32 bytes must be the SHA-256 of those before")
+        << place;
+  }
 }
 
 }  // namespace

@@ -272,7 +272,8 @@ TEST(At128Recording, TakesTheCorrectionFileBesideTheCapture) {
   WriteFileWhole(correction, "EE");
   EXPECT_EQ(MessageOf([&] { (void)OpenRecording(capture); }),
             correction.string() + ": must be 47176 bytes (got 2)");
-  WriteFileWhole(correction, MadeCorrection());
+  std::filesystem::copy_file(RAILCAST_SOURCE_DIR "/scenarios/sensors/at128.dat", correction,
+                             std::filesystem::copy_options::overwrite_existing);
   const auto recording = OpenRecording(capture);
   EXPECT_EQ(recording->info().kind, "capture of AT128");
   const auto frames = ReadAll(*recording);
