@@ -20,85 +20,6 @@
 namespace railcast {
 namespace {
 
-constexpr std::size_t kVlanTagSize = 4;
-constexpr std::uint16_t kIpv4Type = 0x0800;  // Of Ethernet.
-constexpr std::uint16_t kIpv6Type = 0x86DD;
-
-std::uint16_t BigAt(std::span<const char> bytes, std::size_t place) {
-  return static_cast<std::uint16_t>(static_cast<unsigned char>(bytes[place]) << 8U |
-                                    static_cast<unsigned char>(bytes[place + 1]));
-}
-
-constexpr std::size_t kUdpProtocolPlace = 9;  // In the IPv4 header.
-
-std::uint8_t OctetAt(std::span<const char> bytes, std::size_t place) {
-  return static_cast<std::uint8_t>(bytes[place]);
-}
-
-/// What a frame carries: a packet of IP if the type is that.
-struct FrameContent {
-  std::uint16_t type{};  ///< As of Ethernet; of loopback devices the family, if it is not IP.
-  std::span<const char> bytes{};
-  /// The frame ends before its protocol can be told.
-  bool is_cut{};
-
-  [[nodiscard]] bool is_ipv6() const { return type == kIpv6Type; }
-  [[nodiscard]] bool is_ip() const { return type == kIpv4Type || is_ipv6(); }
-};
-
-/// What begins with the version of IP.
-FrameContent IpContent(std::span<const char> bytes) {
-  if (bytes.empty()) return {.is_cut = true};
-  const unsigned version = OctetAt(bytes, 0) >> 4U;
-  if (version == 4) return {kIpv4Type, bytes};
-  return {version == 6 ? kIpv6Type : std::uint16_t{}, bytes};
-}
-
-/// What follows the family's number, in whichever byte order.
-FrameContent LoopbackContent(std::span<const char> frame) {
-  constexpr std::size_t kFamilySize = 4;
-  if (frame.size() <= kFamilySize) return {.is_cut = true};
-  // That of IPv4 is 2 everywhere, that of IPv6 one of those of Linux, BSD, FreeBSD and macOS.
-  constexpr auto kFamilies = std::to_array<unsigned>({2, 10, 24, 28, 30});
-  const unsigned family = OctetAt(frame, 0) | OctetAt(frame, 3);
-  if (std::ranges::count(kFamilies, family) > 0) return IpContent(frame.subspan(kFamilySize));
-  return {static_cast<std::uint16_t>(family), frame.subspan(kFamilySize)};
-}
-
-/// Where the type of what a frame carries stands, and where that begins.
-struct LinkHead {
-  std::size_t type_place{};
-  std::size_t size{};
-};
-
-/// What follows the header of Ethernet, or the one that Linux has in its place, and VLAN tags.
-FrameContent TaggedContent(std::span<const char> frame, LinkHead head) {
-  constexpr auto kTagTypes = std::to_array<std::uint16_t>({0x8100, 0x88A8, 0x9100});
-  while (frame.size() >= std::max(head.size, head.type_place + 2)) {
-    const std::uint16_t type = BigAt(frame, head.type_place);
-    if (std::ranges::count(kTagTypes, type) == 0) return {type, frame.subspan(head.size)};
-    head = {head.size + 2, head.size + kVlanTagSize};
-  }
-  return {.is_cut = true};
-}
-
-/// @param link One of those of IsKnownLink().
-FrameContent ContentOf(std::span<const char> frame, int link) {
-  switch (link) {
-    case DLT_NULL:
-    case DLT_LOOP:
-      return LoopbackContent(frame);
-    case DLT_LINUX_SLL:
-      return TaggedContent(frame, {14, 16});
-    case DLT_LINUX_SLL2:
-      return TaggedContent(frame, {0, 20});
-    case DLT_EN10MB:
-      return TaggedContent(frame, {kEthernetSize - 2, kEthernetSize});
-    default:
-      return IpContent(frame);
-  }
-}
-
 bool IsKnownLink(int link) {
   // libpcap's number for 101, IP of either version, is 12, or 14 on some systems.
   constexpr auto kLinks = std::to_array<int>({DLT_NULL, DLT_EN10MB, DLT_RAW, 12, 14, 101, DLT_LOOP,
@@ -106,50 +27,9 @@ bool IsKnownLink(int link) {
   return std::ranges::count(kLinks, link) > 0;
 }
 
-/// Whether frames of a type are known to carry no UDP: those with a length in its place, ARP, time
-/// and what switches and network cards say to each other.
-bool CarriesNoUdp(std::uint16_t type) {
-  constexpr std::uint16_t kLeastType = 0x0600;
-  constexpr auto kTypes = std::to_array<std::uint16_t>(
-      {0x0806, 0x0842, 0x8035, 0x8809, 0x888E, 0x8899, 0x88CC, 0x88E1, 0x88F7, 0x8902, 0x9000});
-  return type < kLeastType || std::ranges::count(kTypes, type) > 0;
-}
-
-/// What follows the headers of an IPv6 packet, as far as these are there.
-struct Ipv6Content {
-  std::uint8_t protocol{};
-  std::size_t place{};
-  bool is_cut{};           ///< The headers go on behind the end.
-  std::size_t fragment{};  ///< Place of the fragment header; 0 = none.
-};
-
-// Walks over the extension headers that may stand before UDP (RFC 8200, 4).
-Ipv6Content ContentOfIpv6(std::span<const char> ip) {
-  constexpr std::uint8_t kFragment = 44;
-  constexpr auto kOptions =
-      std::to_array<std::uint8_t>({0, 43, 60});  // Hop by hop, routing, destination.
-  if (ip.size() < kIpv6HeaderSize) return {.is_cut = true};
-  Ipv6Content content{.protocol = OctetAt(ip, 6), .place = kIpv6HeaderSize};
-  while (content.protocol == kFragment ||
-         std::ranges::find(kOptions, content.protocol) != kOptions.end()) {
-    const bool is_fragment = content.protocol == kFragment;
-    if (content.place + 8 > ip.size()) {
-      content.is_cut = true;
-      return content;
-    }
-    if (is_fragment) content.fragment = content.place;
-    content.protocol = OctetAt(ip, content.place);
-    content.place += is_fragment ? 8 : 8 * (std::size_t{1} + OctetAt(ip, content.place + 1));
-    // What follows the fragment header of a fragment is a piece of the packet.
-    constexpr std::uint16_t kOffsetAndMore = 0xFFF9;
-    if (is_fragment && (BigAt(ip, content.fragment + 2) & kOffsetAndMore) != 0) break;
-  }
-  return content;
-}
-
 // Whether the captured part of a frame may be the beginning of a UDP datagram. Frames of other
 // protocols are not wanted and may be truncated anywhere.
-bool MayBeginDatagram(const FrameContent& ip) {
+bool MayBeginDatagram(const LinkContent& ip) {
   if (ip.is_cut) return true;
   if (!ip.is_ip()) return false;
   if (ip.is_ipv6()) {
@@ -242,7 +122,7 @@ std::string TypeText(std::uint16_t type) {
   return text.data();
 }
 
-std::optional<IpFragment> FindFragment(const FrameContent& ip) {
+std::optional<IpFragment> FindFragment(const LinkContent& ip) {
   if (!ip.is_ip()) return std::nullopt;
   return ip.is_ipv6() ? UdpFragmentOfIpv6(ip.bytes) : UdpFragment(ip.bytes);
 }
@@ -350,7 +230,7 @@ std::optional<CapturedDatagram> PcapReader::Next() {
       return std::nullopt;
     }
     const std::span<const char> kept(reinterpret_cast<const char*>(bytes), header->caplen);
-    const FrameContent content = ContentOf(kept, pcap_datalink(capture_.get()));
+    const LinkContent content = ContentOf(kept, pcap_datalink(capture_.get()));
     auto fragment = FindFragment(content);
     const bool is_datagram = fragment && (!IsWhole(*fragment) || DatagramIn(fragment->bytes));
     if (!is_datagram && header->caplen < header->len && MayBeginDatagram(content)) {
@@ -359,7 +239,7 @@ std::optional<CapturedDatagram> PcapReader::Next() {
     }
     if (!is_datagram) {
       const bool is_unknown = content.is_ip() ? MayBeginDatagram(content)
-                                              : !content.is_cut && !CarriesNoUdp(content.type);
+                                              : !content.is_cut && !content.carries_no_udp();
       if (is_unknown && unknown_.number++ == 0) {
         unknown_.first = packet;
         unknown_.detail = content.is_ip() ? "a length of IP or UDP that the frame does not have"

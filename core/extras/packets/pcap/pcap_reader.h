@@ -28,7 +28,50 @@ inline constexpr std::size_t kUdpHeaderSize = 8;
 /// Place of the checksum in UDP's header, in network byte order.
 inline constexpr std::size_t kUdpChecksumPlace = 6;
 
-inline constexpr std::uint8_t kUdpProtocol = 17;  ///< In the headers of IPv4 and IPv6.
+inline constexpr std::uint8_t kUdpProtocol = 17;     ///< In the headers of IPv4 and IPv6.
+inline constexpr std::size_t kUdpProtocolPlace = 9;  ///< In the IPv4 header.
+
+/// A number in network byte order.
+[[nodiscard]] inline std::uint16_t BigAt(std::span<const char> bytes, std::size_t place) {
+  return static_cast<std::uint16_t>(static_cast<unsigned char>(bytes[place]) << 8U |
+                                    static_cast<unsigned char>(bytes[place + 1]));
+}
+
+[[nodiscard]] inline std::uint8_t OctetAt(std::span<const char> bytes, std::size_t place) {
+  return static_cast<std::uint8_t>(bytes[place]);
+}
+
+/// What a frame carries: a packet of IP if the type is that.
+struct LinkContent {
+  static constexpr std::uint16_t kIpv4Type = 0x0800;  ///< Of Ethernet.
+  static constexpr std::uint16_t kIpv6Type = 0x86DD;
+
+  std::uint16_t type{};  ///< As of Ethernet; of loopback devices the family, if it is not IP.
+  std::span<const char> bytes{};
+  bool is_cut{};  ///< The frame ends before its protocol can be told.
+
+  [[nodiscard]] bool is_ipv6() const { return type == kIpv6Type; }
+  [[nodiscard]] bool is_ip() const { return type == kIpv4Type || is_ipv6(); }
+  /// Whether frames of the type are known to carry no UDP: those with a length in its place, ARP,
+  /// time and what switches and network cards say to each other.
+  [[nodiscard]] bool carries_no_udp() const;
+};
+
+/// What a captured frame carries, and of packets that carry others, as those of mirrored ports do,
+/// the innermost.
+/// @param link libpcap's number of a link type that PcapReader reads.
+[[nodiscard]] LinkContent ContentOf(std::span<const char> frame, int link);
+
+/// What follows the headers of an IPv6 packet, as far as these are there.
+struct Ipv6Content {
+  std::uint8_t protocol{};
+  std::size_t place{};
+  bool is_cut{};           ///< The headers go on behind the end.
+  std::size_t fragment{};  ///< Place of the fragment header; 0 = none.
+};
+
+/// Walks over the extension headers that may stand before UDP (RFC 8200, 4).
+[[nodiscard]] Ipv6Content ContentOfIpv6(std::span<const char> ip);
 
 /// Where a piece of a datagram stands in the file that it was captured to.
 struct CapturedPiece {
@@ -134,8 +177,9 @@ struct CapturedDatagram {
 /// are put together (IpFragments); those of which fragments are missing are left out.
 ///
 /// Packets are frames of Ethernet, what Linux captures on several interfaces at once (`-i any`, SLL
-/// and SLL2), those of loopback devices, or IP alone. A capture that ends within a packet, as one
-/// whose program was killed, is read up to that.
+/// and SLL2), those of loopback devices, or IP alone. Those that carry others in VXLAN, Geneve, GRE
+/// (with ERSPAN, too), GTP or IP, as mirrored ports do, are taken for what they carry. A capture
+/// that ends within a packet, as one whose program was killed, is read up to that.
 class PcapReader {
  public:
   /// @throws InputError "file: reason" if the file is not a capture of such packets.
