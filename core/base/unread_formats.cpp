@@ -131,6 +131,10 @@ std::string_view AdviceOnType(std::string_view type, std::string_view encoding) 
     return "a scan of one plane, which is not read: laser_geometry makes "
            "sensor_msgs/msg/PointCloud2";
   }
+  if (has("UdpFrame")) {
+    return "packets of Hesai's driver, which are not read: hesai_ros_driver plays them as "
+           "sensor_msgs/msg/PointCloud2";
+  }
   if (has("rslidar_msg")) {
     return "packets of RoboSense, which are not read: rslidar_sdk plays them as "
            "sensor_msgs/msg/PointCloud2";

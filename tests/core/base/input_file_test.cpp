@@ -143,6 +143,7 @@ TEST(UnreadTypes, AreKnownByTheirNamesAndEncodings) {
   EXPECT_EQ(begins("sensor_msgs/msg/PointCloud", "cdr"), "the older cloud");
   EXPECT_EQ(begins("sensor_msgs/msg/LaserScan", "cdr"), "a scan of one plane");
   EXPECT_EQ(begins("rslidar_msg/msg/RslidarPacket", "cdr"), "packets of RoboSense");
+  EXPECT_EQ(begins("hesai_ros_driver/msg/UdpFrame", "cdr"), "packets of Hesai's driver");
   EXPECT_EQ(begins("sensor_msgs/msg/PointCloud2", "cdr"), "");
 }
 

@@ -230,13 +230,17 @@ bool IsOfOpenStreetMap(const MapLine& line) {
 RailMap ReadGeoJson(const std::filesystem::path& file) {
   const Json root = ReadMapJson(file);
   return AtPlace(ShownPath(file) + ": ", [&] {
+    const auto fail = [](const std::string& got) {
+      throw InputError("must be GeoJSON (ogr2ogr OUT.geojson IN.json makes it) (got " + got + ")");
+    };
+    const bool is_esri = root.is_object() && !root.contains("type") &&
+                         (root.contains("geometryType") || root.contains("spatialReference"));
+    if (is_esri) fail("Esri JSON");
     if (!root.is_object() || !root.contains("type")) {
       throw InputError(
           "must be a map: Overpass JSON has a list \"elements\", GeoJSON a \"type\" (got neither)");
     }
-    if (root["type"] == "Topology") {
-      throw InputError("must be GeoJSON (ogr2ogr OUT.geojson IN.json makes it) (got TopoJSON)");
-    }
+    if (root["type"] == "Topology") fail("TopoJSON");
     CheckIsAll(root);
     GeoJsonReader reader;
     reader.ReadObject(root, "", {}, 0);
