@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/base/text.h"
+#include "core/io/recording/plausibility.h"
 #include "core/scan/firing.h"
 #include "railcast/io/recording.h"
 #include "railcast/lidar.h"
@@ -140,7 +142,8 @@ std::string FoundText(const ThingCheck& thing, const PlanCheck& check) {
 
 PlanCheck CheckPlan(const InsertPlan& plan,
                     const std::filesystem::path& recording,
-                    const InsertRange& range) {
+                    const InsertRange& range,
+                    const FiringFinder& finder) {
   constexpr std::size_t kMostLooked = 200;
   const LidarSpec& lidar = plan.scenario.lidar;
   const ScanPattern pattern = BuildScanPattern(lidar.scan);
@@ -160,7 +163,11 @@ PlanCheck CheckPlan(const InsertPlan& plan,
     };
     const auto read = opened->Next();
     std::optional<RecordedFrame> recorded;
-    if (read && (frame - range.first) % stride == 0) recorded = (*read)();
+    if (read && (frame - range.first) % stride == 0) {
+      recorded = (*read)();
+      static_cast<void>(CheckRanges(*recorded, opened->info(), lidar.range_max_m));
+      recorded = finder.Find(std::move(*recorded)).recorded;
+    }
     check.num_frames_looked += recorded ? 1 : 0;
     for (std::size_t i = 0; i < check.things.size(); ++i) {
       ThingCheck& thing = check.things[i];

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "generator/extras/insert/firing_finder.h"
 #include "generator/extras/insert/insert_plan.h"
 
 namespace railcast {
@@ -35,10 +36,13 @@ struct PlanCheck {
 /// sensor's pattern aim at the bounding box of each object, and what was recorded there. Clouds are
 /// read of at most 200 frames, evenly over the range. What lies in the lowest 0.1 m of a box counts
 /// as ground.
-/// @throws InputError if the recording cannot be read.
+/// @param finder Finds the firings of these frames, as insertion would.
+/// @throws InputError if the recording cannot be read, or as CheckRanges() and
+///   FiringFinder::Find().
 [[nodiscard]] PlanCheck CheckPlan(const InsertPlan& plan,
                                   const std::filesystem::path& recording,
-                                  const InsertRange& range);
+                                  const InsertRange& range,
+                                  const FiringFinder& finder);
 
 /// The report of a check, a few lines for each object.
 [[nodiscard]] std::string PlanCheckText(const InsertPlan& plan, const PlanCheck& check);

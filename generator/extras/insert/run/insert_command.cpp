@@ -46,8 +46,7 @@ int RunInsertCommand(InsertOptions options) {
   const InsertPlan plan = ReadInsertPlan(choices.plan, choices.recording);
   for (const std::string& remark : plan.remarks) std::cout << ShownLines(remark) << "\n";
   if (options.is_check) {
-    std::cout << ShownLines(
-        PlanCheckText(plan, CheckPlan(plan, choices.recording, RangeOf(choices, plan))));
+    std::cout << ShownLines(PlanCheckText(plan, CheckInsert(choices, plan)));
     return kExitSuccess;
   }
   CatchStopSignals();
@@ -84,20 +83,17 @@ void AddInsert(ProgramOptions& app, ProgramCommand& command) {
   for (const FrameFormat& format : FrameFormats()) {
     if (!format.files.empty()) formats.emplace_back(format.name);
   }
-  const Option format =
-      insert
-          .AddOption("--format", choices.format, "The recording's own format, or one of railcast's")
-          .Check(Named(formats))
-          .ShowDefault();
-  const Option points_alone =
-      insert.AddFlag("--points-alone", choices.may_use_points_alone,
-                     "Treat frames point by point if their firings cannot be determined");
+  insert.AddOption("--format", choices.format, "The recording's own format, or one of railcast's")
+      .Check(Named(formats))
+      .ShowDefault();
+  insert.AddFlag("--points-alone", choices.may_use_points_alone,
+                 "Treat frames point by point if their firings cannot be determined");
   const Option certify = AddCertify(insert, choices.certify);
   const Option threads = AddThreads(insert, choices.num_threads);
   const Option check =
       insert.AddFlag("--check", options->is_check,
                      "Print what the objects meet in the recording, and write nothing");
-  for (const Option other : {format, points_alone, certify, threads}) check.Excludes(other);
+  for (const Option other : {certify, threads}) check.Excludes(other);
   AddSourceChoice(insert, options->choice);
   AddCaptureSensor(insert, options->choice.sensor);
   insert.Footer(

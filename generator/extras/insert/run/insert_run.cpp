@@ -415,6 +415,16 @@ void CheckIsApart(const InsertChoices& choices) {
                    ShownPath(choices.directory) + ")");
 }
 
+PlanCheck CheckInsert(const InsertChoices& choices, const InsertPlan& plan) {
+  const auto recording = OpenRecording(choices.recording);
+  const InsertRange range = RangeOf(choices, plan);
+  const FiringFinder finder(recording->info(), plan.scenario.lidar.scan,
+                            choices.may_use_points_alone);
+  const Inserter inserter(plan, choices.num_threads);
+  static_cast<void>(OutputOf(choices, recording->info(), plan, range, inserter.certify()));
+  return CheckPlan(plan, choices.recording, range, finder);
+}
+
 InsertResult RunInsert(const InsertChoices& choices,
                        const InsertPlan& plan,
                        const RunHooks& hooks) {

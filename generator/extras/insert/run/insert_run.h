@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "generator/extras/insert/insert_plan.h"
+#include "generator/extras/insert/plan/plan_check.h"
 #include "generator/run/frame_pipe.h"
 
 namespace railcast {
@@ -46,6 +47,11 @@ struct InsertResult : RunResult {
 
 /// @throws InputError if what is written would be read as a part of the recording.
 void CheckIsApart(const InsertChoices& choices);
+
+/// What the objects of a plan meet in a recording (CheckPlan()).
+/// @throws InputError as RunInsert() does for recording, plan and format, without writing anything;
+///   of a recording with more than 200 frames not all are looked at.
+[[nodiscard]] PlanCheck CheckInsert(const InsertChoices& choices, const InsertPlan& plan);
 
 /// Puts a plan into a recording, frame by frame in order, while further frames are read. Makes the
 /// frames that the folder does not hold yet; its bytes do not depend on the number of threads.

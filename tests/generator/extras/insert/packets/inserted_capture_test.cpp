@@ -16,6 +16,7 @@
 #include "generator/extras/insert/packets/insertion.h"
 #include "generator/extras/insert/run/insert_run.h"
 #include "tests/core/extras/packets/velodyne/made_scan.h"
+#include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/extras/insert/packets/hand_edits.h"
@@ -102,6 +103,27 @@ TEST_P(InsertedCapture, IsCheckedAgainstItsHash) {
   WriteFileWhole(copy, bytes);
   EXPECT_THAT(VerifyInsertion(choices.directory, [](double) {}).faults,
               testing::ElementsAre(testing::StartsWith(copy.string() + ": must have the hash ")));
+}
+
+// Another sensor's channels, of the same number and of another one.
+TEST_P(InsertedCapture, IsRefusedByTheCheckAsByTheRunIfThePlanHasAnotherSensor) {
+  for (const std::string sensor : {"vlp16", "hdl32e", "pandar64"}) {
+    if (sensor == SensorOf(GetParam())) continue;
+    const fs::path file =
+        WritePlan(folder_.path(), R"({"poses": "standing"})", "",
+                  "\"lidar\": \"" RAILCAST_SOURCE_DIR "/scenarios/sensors/" + sensor + ".json\", ");
+    const InsertChoices choices = {
+        .recording = capture(), .plan = file, .directory = folder_.path() / "none"};
+    const InsertPlan plan = ReadInsertPlan(file, capture());
+    const std::string refusal = MessageOf([&] { static_cast<void>(CheckInsert(choices, plan)); });
+    EXPECT_THAT(refusal, testing::HasSubstr("its firings cannot be found: ")) << sensor;
+    EXPECT_EQ(refusal, MessageOf([&] {
+                static_cast<void>(RunInsert(
+                    choices, plan, {[](std::uint32_t, std::uint32_t) {}, [] { return false; }}));
+              }))
+        << sensor;
+    EXPECT_FALSE(exists(choices.directory));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Velodyne,

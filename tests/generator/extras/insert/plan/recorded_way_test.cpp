@@ -240,7 +240,8 @@ struct CheckedPlan {
                                     R"("s_m": 20.5}, {"name": "far", )" + box + R"("s_m": 900}])",
                                 VelodyneOfPlan());
     plan = ReadInsertPlan(file, source);
-    check = CheckPlan(plan, source, {0, static_cast<std::uint32_t>(plan.frame_times_ns.size())});
+    check = CheckPlan(plan, source, {0, static_cast<std::uint32_t>(plan.frame_times_ns.size())},
+                      {OpenRecording(source)->info(), plan.scenario.lidar.scan, true});
   }
 
   TemporaryDirectory folder;

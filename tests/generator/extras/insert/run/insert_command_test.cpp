@@ -53,7 +53,7 @@ TEST_F(InsertCommand, TellsWithCheckWhatThePlanMeetsAndWritesNothing) {
   EXPECT_FALSE(exists(out()));
 }
 
-TEST_F(InsertCommand, ChecksTheFramesThatAreWantedAndTakesNoOptionsForFiles) {
+TEST_F(InsertCommand, ChecksTheFramesThatAreWantedAndTakesNoOptionsForSpeed) {
   Make(3);
   EXPECT_THAT(Insert("--check --frames 1..1"),
               ExitsWith(0, testing::HasSubstr("aimed at in 1 of 1 frames")));
@@ -62,7 +62,7 @@ TEST_F(InsertCommand, ChecksTheFramesThatAreWantedAndTakesNoOptionsForFiles) {
   EXPECT_EQ(Insert("--check --out " + (run() / "x").string()).status, 1);
   EXPECT_EQ(Insert("--check --out " + out().string()).status, 0);
   EXPECT_FALSE(exists(out()));
-  for (const std::string option : {"--format ply", "--points-alone", "--threads 1"}) {
+  for (const std::string option : {"--certify 1%", "--threads 1"}) {
     const Ended refused = Insert("--check " + option);
     EXPECT_EQ(refused.status, 2) << option;
     EXPECT_NE(
@@ -134,6 +134,12 @@ TEST_F(InsertCommand, LeavesNothingWhereThePlanDoesNotFitTheRecording) {
   EXPECT_THAT(Insert("--out " + out().string()),
               ExitsWith(1, testing::HasSubstr("000000.pcd: its firings cannot be found: ")));
   EXPECT_FALSE(exists(out()));
+  // --check refuses what the run refuses, and takes what it takes.
+  const std::string to_out = "--out " + out().string();
+  EXPECT_EQ(Insert("--check").status, 1);
+  EXPECT_EQ(Insert("--check").said, Insert(to_out).said);
+  EXPECT_EQ(Insert("--check --points-alone").status, 0);
+  EXPECT_EQ(Insert("--points-alone " + to_out).status, 0);
 }
 
 TEST_F(InsertCommand, KeepsTheFramesThatItHasWhereALaterOneCannotBeRead) {
