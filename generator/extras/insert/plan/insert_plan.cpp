@@ -23,6 +23,7 @@
 #include "core/io/run/sequence_files.h"
 #include "core/io/sensor_tables.h"
 #include "core/rail/line/line_place.h"
+#include "core/scenario/json_source.h"
 #include "core/scenario/ouster_metadata.h"
 #include "generator/extras/insert/intensity_scale.h"
 #include "generator/extras/insert/plan/recorded_intensities.h"
@@ -265,6 +266,26 @@ void UseSensorOf(const std::filesystem::path& recording,
   remarks.push_back(std::move(remark));
 }
 
+/// Gives a plan that names no rung the one that what is put in needs, unless the plan switches
+/// effects of the published model on.
+/// @param remarks Receives which one it is.
+void UseRung(const std::filesystem::path& plan_file,
+             ScenarioSpec& plan,
+             std::vector<std::string>& remarks) {
+  JsonSource source;
+  const auto plan_keys = source.Members(*source.Open(plan_file));
+  if (std::ranges::count(plan_keys->members, "fidelity", &Member::key) > 0) return;
+  ScenarioSpec needed = plan;
+  needed.fidelity = Fidelity::kFootprint;
+  const bool has_published = ConflictIn(SwitchedEffects(needed)).has_value();
+  if (!has_published) plan.fidelity = needed.fidelity;
+  remarks.push_back("the rung is " + std::string(NameOf(plan.fidelity)) +
+                    (has_published ? ", of whose model the plan's effects are"
+                                   : ", which edges, shadows, noise and texture of what is put in "
+                                     "need") +
+                    ": the plan's fidelity may say otherwise");
+}
+
 /// Checks that the plan is one, and that it asks for nothing that is not put into recordings.
 void CheckSections(const ScenarioSpec& plan) {
   ErrorList errors;
@@ -360,6 +381,7 @@ RecordedRun ReadRecordedRun(const std::filesystem::path& plan_file,
                             const std::filesystem::path& recording) {
   RecordedRun run{.recording = recording, .plan = ReadScenario(plan_file)};
   CheckSections(run.plan);
+  UseRung(plan_file, run.plan, run.remarks);
   UseSensorOf(recording, run.plan, run.remarks);
   const RecordingWorldSpec& world = *run.plan.world.recording;
   run.way = ReadRecordedWay(recording, world, run.plan.lidar, run.remarks);

@@ -100,6 +100,32 @@ TEST(InsertPlan, TrainsRunAlongTheDrivenPath) {
   EXPECT_NEAR(run.PlaceOf(0).z(), 0.0, 1e-6);
 }
 
+TEST(InsertPlan, HasTheRungThatWhatIsPutInNeedsUnlessItNamesOne) {
+  const TemporaryDirectory folder;
+  const fs::path source = WriteReceived(folder.path() / "run", StraightRun(3, 0.0));
+  const auto plan_with = [&](const std::string& keys) {
+    return ReadInsertPlan(WritePlan(folder.path(), "{}", "", VelodyneOfPlan() + keys), source);
+  };
+  const auto begin = [](const InsertPlan& plan) { return plan.remarks.at(0).substr(0, 25); };
+  const InsertPlan own = plan_with("");
+  EXPECT_EQ(own.scenario.fidelity, Fidelity::kFootprint);
+  EXPECT_EQ(own.remarks.at(0),
+            "the rung is footprint, which edges, shadows, noise and texture of what is put in "
+            "need: the plan's fidelity may say otherwise");
+  EXPECT_THAT(own.identity.scenario_json, HasSubstr("\"fidelity\": \"footprint\""));
+  for (const Fidelity rung : {Fidelity::kPlausibility, Fidelity::kSurface, Fidelity::kAuto}) {
+    const InsertPlan named = plan_with("\"fidelity\": \"" + std::string(NameOf(rung)) + "\", ");
+    EXPECT_EQ(named.scenario.fidelity, rung);
+    EXPECT_NE(begin(named), "the rung is footprint, wh");
+  }
+  // Effects of the published model are of no other rung.
+  const InsertPlan published = plan_with(R"("effects": {"rain": true}, )");
+  EXPECT_EQ(published.scenario.fidelity, Fidelity::kPlausibility);
+  EXPECT_EQ(begin(published), "the rung is plausibility,");
+  EXPECT_EQ(plan_with(R"("effects": {"clutter": false}, )").scenario.fidelity,
+            Fidelity::kFootprint);
+}
+
 TEST(InsertPlan, TheVehicleMovesAsRecorded) {
   const PlannedRun run("");
   ASSERT_EQ(run.message, "no error");
