@@ -1,8 +1,11 @@
 #include "railcast/io/recording.h"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -52,6 +55,39 @@ void RefuseUnread(const std::filesystem::path& directory) {
   }
 }
 
+/// Files of recordings that an extra reads, by their endings.
+struct RecordingOfExtra {
+  std::string_view extension;
+  std::string_view extra;
+};
+constexpr auto kRecordingsOfExtras = std::to_array<RecordingOfExtra>(
+    {{".pcap", "packets"}, {".pcapng", "packets"}, {".mcap", "ros"}, {".db3", "ros"}});
+
+/// Whether this build reads files of an ending.
+bool IsRead(std::string_view extension) {
+  return std::ranges::any_of(RecordingExtras::Get().kinds, [&](const RecordingKind& kind) {
+    return std::ranges::count(kind.extensions, extension) > 0;
+  });
+}
+
+/// A file, or what stands before one of the colons of its name if that is one, has the ending; or
+/// one of the files of a directory.
+bool HasExtension(const std::filesystem::path& source, std::string_view extension) {
+  const auto has = [&](const std::filesystem::path& file) {
+    std::error_code error;
+    return is_regular_file(file, error) && LowerCase(file.extension().string()) == extension;
+  };
+  if (is_directory(source)) {
+    return std::ranges::any_of(std::filesystem::directory_iterator(source), has);
+  }
+  const std::string text = source.string();
+  for (std::size_t end = text.size(); end != std::string::npos && end > 0;
+       end = text.rfind(':', end - 1)) {
+    if (has(text.substr(0, end))) return true;
+  }
+  return false;
+}
+
 /// Opens a directory that was written by railcast-generate insert, or its folder of clouds; null if
 /// it is neither.
 std::unique_ptr<Recording> OpenIfInserted(const std::filesystem::path& directory) {
@@ -81,6 +117,7 @@ std::unique_ptr<Recording> OpenDirectory(const std::filesystem::path& directory)
   }
   if (auto clouds = OpenCloudsIn(directory)) return clouds;
   if (auto found = OpenAsKind(&RecordingKind::open, directory)) return found;
+  CheckExtraIsThere(directory);
   RefuseUnread(directory);
   throw InputError(ShownPath(directory) + ": must be a sequence or hold " +
                    ReadableExtensions(true, {".las"}) + " files (got neither)");
@@ -133,6 +170,7 @@ std::unique_ptr<Recording> OpenAny(const std::filesystem::path& source) {
     if (!columns.empty()) return OpenColumns(source, clouds);
     if (auto series = OpenCloudsIn(source)) return series;
     if (auto found = OpenAsKind(&RecordingKind::open_part, source)) return found;
+    CheckExtraIsThere(source);
     throw FileError(source, error ? error.value() : ENOENT);
   }
   if (is_directory(status)) return OpenDirectory(source);
@@ -142,6 +180,7 @@ std::unique_ptr<Recording> OpenAny(const std::filesystem::path& source) {
   }
   if (IsCloudFile(source)) return OpenClouds(source, "point cloud file", {source});
   if (auto found = OpenAsKind(&RecordingKind::open, source)) return found;
+  CheckExtraIsThere(source);
   std::vector<std::string> extensions = {".las"};
   for (const RecordingKind& kind : RecordingExtras::Get().kinds) {
     extensions.insert(extensions.end(), kind.extensions.begin(), kind.extensions.end());
@@ -155,6 +194,13 @@ std::unique_ptr<Recording> OpenAny(const std::filesystem::path& source) {
 std::filesystem::path TopicOfBag(const std::filesystem::path& bag, const std::string& topic) {
   const std::string mark(kTopicMark, 0, kTopicMark.size() - (topic.starts_with('/') ? 1 : 0));
   return bag.native() + mark + topic;
+}
+
+void CheckExtraIsThere(const std::filesystem::path& source) {
+  for (const auto& [extension, extra] : kRecordingsOfExtras) {
+    if (IsRead(extension) || !HasExtension(source, extension)) continue;
+    throw LacksExtra(ShownPath(source), std::string(extra));
+  }
 }
 
 bool IsBagOfTopics(const std::filesystem::path& source) {

@@ -120,6 +120,10 @@ struct RecordingExtras {
   }
 };
 
+/// @param source As OpenRecording() takes it, which need not be there.
+/// @throws InputError if it has files that an extra reads which this build lacks.
+void CheckExtraIsThere(const std::filesystem::path& source);
+
 /// Returns what an extra adds.
 /// @param file What it is needed for.
 /// @throws InputError if this build does not have it.

@@ -26,6 +26,7 @@ void UseTopic(const std::string& topic, std::vector<std::filesystem::path>& sour
     ++num_bags;
   }
   if (num_bags > 0) return;
+  for (const std::filesystem::path& source : sources) CheckExtraIsThere(source);
   throw InputError(
       "--topic: must come with a bag of ROS 2, .mcap, .db3 or a directory of them (got " +
       ShownPath(sources.front()) + ")");
@@ -79,6 +80,7 @@ void UseSensor(const std::string& sensor, std::vector<std::filesystem::path>& so
     ++num_captures;
   }
   if (num_captures == 0) {
+    for (const std::filesystem::path& source : sources) CheckExtraIsThere(source);
     throw InputError("--sensor: must come with a capture, .pcap or .pcapng (got " +
                      ShownPath(sources.front()) + ")");
   }
