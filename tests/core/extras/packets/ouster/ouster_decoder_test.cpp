@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/base/bytes.h"
 #include "core/base/units.h"
 #include "tests/core/extras/packets/ouster/shared_captures.h"
 #include "tests/support/decode_packet.h"
@@ -193,7 +194,8 @@ TEST(OusterDecoder, KeepsAll16BitsOfReflectivityOfFirmwareBefore2_1) {
     std::vector<char> packet = made.Packet(1, 0);
     const OusterPixel recorded{{OusterReturn{.range_mm = 5000, .reflectivity = 16'237}}, 9};
     layout.Store(recorded, 3, 2, packet);
-    const std::vector<SensorTurn> turns = TurnsOfPackets(decoder, std::vector{packet});
+    const std::vector<SensorTurn> turns =
+        TurnsOfPackets(decoder, std::vector<std::vector<char>>{packet});
     EXPECT_EQ(turns.at(0).points.at(3).intensity, 16'237U);
     // What stays is written as it was; what is new has none.
     const std::vector<char> before = packet;
@@ -213,7 +215,9 @@ TEST(OusterDecoder, TakesTheByteOfReflectivityOfFirmwareSince2_1) {
   OusterDecoder decoder(made.metadata());
   std::vector<char> packet = made.Packet(1, 0);
   StoreAt<std::uint16_t>(packet.data() + layout.PlaceOfPixel(3, 2) + 4, 0x3F6D);
-  EXPECT_EQ(TurnsOfPackets(decoder, std::vector{packet}).at(0).points.at(3).intensity, 0x6DU);
+  EXPECT_EQ(
+      TurnsOfPackets(decoder, std::vector<std::vector<char>>{packet}).at(0).points.at(3).intensity,
+      0x6DU);
 }
 
 // LEGACY packets do not say which metadata are theirs.

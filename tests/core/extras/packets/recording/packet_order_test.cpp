@@ -282,7 +282,8 @@ TEST(PacketOrder, CountsLossesInRealCaptures) {
       const auto [missing, lost] = MissingAndLost(format, packets, is_kept);
       // Where 13 packets are left of 379, they do not tell the window.
       const bool is_told = name != std::string("lidar_packets_nebula/vlp32c_single.pcap") || i != 6;
-      if (is_told) EXPECT_EQ(lost, missing) << name << ", " << i;
+      EXPECT_TRUE(lost == missing || !is_told)
+          << name << ", " << i << ": " << lost << " of " << missing;
       ++i;
     }
   }
