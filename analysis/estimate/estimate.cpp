@@ -109,6 +109,23 @@ Estimate RobustScale(std::vector<double>& samples) {
   return RobustScaleEstimate(PlainRobustScale(distances), samples.size());
 }
 
+Estimate RobustScale(const RoundedSamples& samples, Rounded rounded) {
+  const auto num = static_cast<std::uint64_t>(samples.num);
+  if (num < kMinSamples) return NotEnough(num);
+  const RoundedScale scale = FindRoundedScale({samples}, rounded);
+  return {scale.value, scale.low, scale.high, num};
+}
+
+Estimate WithoutRounding(const Estimate& sigma, double step) {
+  const auto less = [&](double of, double share) {
+    return std::sqrt(std::max(0.0, of * of - share * step * step));
+  };
+  // The median of errors that are not quite normal is off by up to a hundredth.
+  constexpr double kMost = 1.1 / 12.0;
+  if (!sigma.is_enough() || !(step > 0.0)) return sigma;
+  return {less(sigma.value, 1.0 / 12.0), less(sigma.low, kMost), sigma.high, sigma.num};
+}
+
 ToleranceLimits LimitsExceededBy90Percent(std::vector<double> values) {
   constexpr double kShareBelow = 0.1;
   constexpr double kRisk = 0.05;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/base/rounded_scale.h"
+
 namespace railcast {
 
 /// With fewer samples a figure is only given as "not enough".
@@ -102,6 +104,13 @@ struct RankInterval {
 /// up to half of the samples. The interval is that of normal samples, at 37 % of the efficiency of
 /// the plain standard deviation (Rousseeuw and Croux 1993, JASA 88).
 [[nodiscard]] Estimate RobustScale(std::vector<double>& samples);
+
+/// The same of samples that come in steps, before they were rounded (core/base/rounded_scale.h).
+[[nodiscard]] Estimate RobustScale(const RoundedSamples& samples, Rounded rounded);
+
+/// A standard deviation less what rounding to a step adds to its square, a twelfth of the step's.
+/// Where all values fall into one step it adds nothing: the interval's upper end stays.
+[[nodiscard]] Estimate WithoutRounding(const Estimate& sigma, double step);
 
 /// A point of a curve: y at x, with the relative standard error of y (1 / sqrt(count)
 /// for a count).

@@ -122,4 +122,19 @@ Estimate LogHistogram::RobustScale() const {
   return NotEnough(num_);
 }
 
+Estimate LogHistogram::RobustScale(double step, Rounded rounded) const {
+  const Estimate plain = RobustScale();
+  constexpr double kFinest = 0.01;  // Steps that are finer than the bins change nothing.
+  if (!plain.is_enough() || !(step > kFinest * plain.value)) return plain;
+  RoundedSamples samples(step);
+  samples.Add(0.0, static_cast<double>(num_zeros_));
+  for (const double sign : {-1.0, 1.0}) {
+    const std::vector<std::uint32_t>& counts = sign > 0.0 ? positive_ : negative_;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      if (counts[i] > 0) samples.Add(sign * MiddleOf(i), counts[i]);
+    }
+  }
+  return railcast::RobustScale(samples, rounded);
+}
+
 }  // namespace railcast

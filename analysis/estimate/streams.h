@@ -47,6 +47,8 @@ class LogHistogram {
   [[nodiscard]] Estimate Median() const { return Quantile(0.5); }
   /// See RobustScale() in estimate.h.
   [[nodiscard]] Estimate RobustScale() const;
+  /// Of samples that came in steps; without a step as above.
+  [[nodiscard]] Estimate RobustScale(double step, Rounded rounded) const;
 
  private:
   [[nodiscard]] double OfRank(std::uint64_t rank) const;

@@ -16,6 +16,7 @@
 
 #include "analysis/estimate/estimate.h"
 #include "analysis/estimate/streams.h"
+#include "core/io/recording/range_step.h"
 #include "core/points/nearest_points.h"
 #include "core/points/point_alignment.h"
 #include "core/points/point_spread.h"
@@ -139,16 +140,18 @@ PclPlane PclPlaneOf(const Points& points, const Plane& ours) {
   return found;
 }
 
-// The points within 5 robust standard deviations of the plane.
-Points WithoutOutliers(const Points& points, const Plane& plane) {
+// The points within 5 robust standard deviations of the plane, of which rounding alone makes a
+// part.
+Points WithoutOutliers(const Points& points, const Plane& plane, double step_m) {
   constexpr double kMostDeviations = 5.0;
-  constexpr double kLeastScale_m = 1e-5;  // Precision of float32 coordinates at 100 m.
+  constexpr double kPrecision_m = 1e-5;  // Of float32 coordinates at 100 m.
+  const double least_m = std::max(kPrecision_m, step_m / std::sqrt(12.0));
   std::vector<double> distances_m;
   const auto distance_m = [&](const PatchPoint& point) {
     return plane.normal.dot(point.position_m - plane.middle);
   };
   for (const PatchPoint& point : points) distances_m.push_back(distance_m(point));
-  const double most_m = kMostDeviations * std::max(PlainRobustScale(distances_m), kLeastScale_m);
+  const double most_m = kMostDeviations * std::max(PlainRobustScale(distances_m), least_m);
   Points kept;
   for (const PatchPoint& point : points) {
     if (std::abs(distance_m(point)) <= most_m) kept.push_back(point);
@@ -168,14 +171,14 @@ bool IsFlat(const Points& points, const Plane& plane) {
 }
 
 // @pre There are at least kLeastPoints points.
-std::optional<FlatPiece> MakePiece(const Points& points) {
+std::optional<FlatPiece> MakePiece(const Points& points, double step_m) {
   constexpr double kLeastShare = 0.8;
   const auto agreed = AgreedPlane(points, points[points.size() / 2].position_m.norm());
   if (!agreed) return std::nullopt;
   Plane plane = *agreed;
   Points kept;
   for (int pass = 0; pass < 2; ++pass) {
-    kept = WithoutOutliers(points, plane);
+    kept = WithoutOutliers(points, plane, step_m);
     const auto num = static_cast<double>(kept.size());
     const bool is_enough =
         kept.size() >= kLeastPoints && num >= kLeastShare * static_cast<double>(points.size());
@@ -248,6 +251,7 @@ std::vector<FlatPiece> FindInGrid(const RecordedFrame& recorded, const ScanTable
   const std::size_t num_places = num_rows * num_columns;
   // Places without a flat neighbourhood cost little time, so more are tried than needed.
   constexpr std::size_t kTries = 6 * kMaxPatches;
+  const double step_m = RangeStep_m(recorded);
   for (std::size_t i = 0; i < std::min(kTries, num_places) && pieces.size() < kMaxPatches; ++i) {
     const double turn = kGolden * static_cast<double>(i + 1 + kTries * (frame.index % 1024U));
     const auto place =
@@ -262,7 +266,7 @@ std::vector<FlatPiece> FindInGrid(const RecordedFrame& recorded, const ScanTable
       }
     }
     if (points.size() * 4 < height * width * 3 || points.size() < kLeastPoints) continue;
-    if (auto piece = MakePiece(points)) pieces.push_back(std::move(*piece));
+    if (auto piece = MakePiece(points, step_m)) pieces.push_back(std::move(*piece));
   }
   return pieces;
 }
@@ -281,11 +285,12 @@ std::vector<FlatPiece> FindInCloud(const RecordedFrame& recorded) {
   const NearestSearch search(points_m);
   const std::size_t stride = std::max<std::size_t>(1, slots.size() / kMaxPatches);
   std::vector<std::uint32_t> found;
+  const double step_m = RangeStep_m(recorded);
   for (std::size_t i = frame.index % stride; i < slots.size(); i += stride) {
     search.FindNearest(points_m[i], kNearestPoints, found);
     Points points;
     for (const std::uint32_t k : found) Gather(recorded, slots[k], points);
-    if (auto piece = MakePiece(points)) pieces.push_back(std::move(*piece));
+    if (auto piece = MakePiece(points, step_m)) pieces.push_back(std::move(*piece));
   }
   return pieces;
 }

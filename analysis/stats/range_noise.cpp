@@ -7,6 +7,7 @@
 #include "analysis/report/words.h"
 #include "analysis/stats/bins.h"
 #include "core/base/units.h"
+#include "core/io/recording/range_step.h"
 
 namespace railcast {
 namespace {
@@ -26,7 +27,9 @@ double MedianOfSigma(double degrees) {
 }
 
 Table NoisePlaneTable(const std::vector<Noise::Planes>& planes) {
-  Table table = TableOf(kStatsWords, "noise_from_planes");
+  Moments step_m;
+  for (const Noise::Planes& bin : planes) step_m.Add(bin.step_m);
+  Table table = TableOf(kStatsWords, "noise_from_planes", {StepValue(step_m)});
   for (std::size_t i = 0; i < planes.size(); ++i) {
     const Noise::Planes& bin = planes[i];
     if (bin.num_points == 0) continue;
@@ -75,8 +78,19 @@ Estimate Noise::Planes::PlaneSigma_m() const {
   return PooledSigma(plane_squares_m2, degrees, plane_sigmas_m.num());
 }
 
+Estimate Noise::Planes::RobustRangeSigma_m() const {
+  return WithoutRounding(range_sigmas_m.Median(), step_m.PlainMean());
+}
+
+Estimate Noise::Planes::RobustPlaneSigma_m() const {
+  // Errors along the beams, as they are square to the planes.
+  const double slant = std::sqrt(plane_squares_m2 / range_squares_m2);
+  return WithoutRounding(plane_sigmas_m.Median(), slant * step_m.PlainMean());
+}
+
 void Noise::Add(const RecordedFrame& recorded, const std::vector<PlanePatch>& patches) {
   planes_.resize(RangeBins().size());
+  const double step_m = patches.empty() ? 0.0 : RangeStep_m(recorded);
   for (const PlanePatch& patch : patches) {
     const auto bin = RangeBins().Find(patch.range_m);
     if (!bin) continue;
@@ -88,6 +102,7 @@ void Noise::Add(const RecordedFrame& recorded, const std::vector<PlanePatch>& pa
     planes.plane_squares_m2 += patch.plane_squares_m2;
     planes.num_points += patch.num_points;
     planes.num_outliers += patch.num_outliers;
+    if (step_m > 0.0) planes.step_m.Add(step_m);
     planes.range_sigmas_m.Add(correction * std::sqrt(patch.range_squares_m2 / degrees));
     planes.plane_sigmas_m.Add(correction * std::sqrt(patch.plane_squares_m2 / degrees));
     planes.pcl_sigmas_m.Add(patch.by_pcl.sigma_m);

@@ -4,6 +4,7 @@
 #include <tuple>
 #include <vector>
 
+#include "analysis/report/words.h"
 #include "analysis/stats/plane_patches.h"
 #include "analysis/stats/sums.h"
 #include "core/io/recording/scan_table.h"
@@ -18,7 +19,7 @@ namespace railcast {
 /// the noise if positions err equally in all directions (as in the published model). Roughness of
 /// the surface counts as noise, so the estimate is an upper bound on rough ground. Plain: the
 /// squares of all patches pooled. Robust: the median over patches, which rough or curved patches
-/// hardly affect.
+/// hardly affect, less what the ranges' step adds (WithoutRounding()).
 class Noise {
  public:
   void Add(const RecordedFrame& recorded, const std::vector<PlanePatch>& patches);
@@ -37,17 +38,18 @@ class Noise {
     /// Of the same patches by PCL's own estimators (PclPlane).
     LogHistogram pcl_sigmas_m, pcl_turns_rad, pcl_normals_rad;
     std::uint64_t num_pcl_outliers{};
+    Moments step_m;  ///< RangeStep_m() of the frames that have one.
 
     static auto Sums(auto& of) {
       return std::tie(of.degrees, of.range_squares_m2, of.plane_squares_m2, of.num_points,
                       of.num_outliers, of.range_sigmas_m, of.plane_sigmas_m, of.pcl_sigmas_m,
-                      of.pcl_turns_rad, of.pcl_normals_rad, of.num_pcl_outliers);
+                      of.pcl_turns_rad, of.pcl_normals_rad, of.num_pcl_outliers, of.step_m);
     }
     /// Pooled over the patches; not enough below kMinSamples patches.
     [[nodiscard]] Estimate RangeSigma_m() const;
     [[nodiscard]] Estimate PlaneSigma_m() const;
-    [[nodiscard]] Estimate RobustRangeSigma_m() const { return range_sigmas_m.Median(); }
-    [[nodiscard]] Estimate RobustPlaneSigma_m() const { return plane_sigmas_m.Median(); }
+    [[nodiscard]] Estimate RobustRangeSigma_m() const;
+    [[nodiscard]] Estimate RobustPlaneSigma_m() const;
   };
 
   /// By bin of RangeBins().
@@ -61,6 +63,9 @@ class Noise {
   std::vector<Scatter> truth_;
 };
 
+/// The step of ranges in mm, as `step_mm` of words; empty without one.
+[[nodiscard]] WordValue StepValue(const Moments& step_m);
+
 /// Whether the sensor was elsewhere, or looked elsewhere, in the later frame.
 /// @pre Both have a pose.
 [[nodiscard]] bool HasMoved(const RecordedFrame& earlier, const RecordedFrame& later);
@@ -71,7 +76,8 @@ class Noise {
 /// is corrected for the slope between them; only places that are flat enough for that (neighbours
 /// within 0.3 m of a straight line) take part. sigma = standard deviation of the differences /
 /// sqrt(2). Pairs of frames do not overlap, so that their samples are independent. What moves in
-/// the scene spoils the plain figure and not the robust one.
+/// the scene spoils the plain figure and not the robust one. Where ranges come in steps, the robust
+/// one is that before rounding (core/base/rounded_scale.h), and the plain one has the steps in it.
 class TemporalNoise {
  public:
   /// Adds two consecutive frames.
@@ -87,8 +93,9 @@ class TemporalNoise {
   /// Differences in one bin of range.
   struct Bin {
     Scatter differences_m;
+    Moments step_m;  ///< RangeStep_m() of the pairs that have one.
 
-    static auto Sums(auto& of) { return std::tie(of.differences_m); }
+    static auto Sums(auto& of) { return std::tie(of.differences_m, of.step_m); }
     [[nodiscard]] Estimate Sigma_m() const;
     [[nodiscard]] Estimate RobustSigma_m() const;
   };

@@ -7,7 +7,9 @@
 
 #include "analysis/report/words.h"
 #include "analysis/stats/bins.h"
+#include "core/base/text.h"
 #include "core/io/recording/column_finder.h"
+#include "core/io/recording/range_step.h"
 
 namespace railcast {
 namespace {
@@ -38,6 +40,10 @@ std::optional<double> Slope_m(const RecordedFrame& recorded, std::size_t row, st
 
 }  // namespace
 
+WordValue StepValue(const Moments& step_m) {
+  return {"step_mm", step_m.num() == 0 ? "" : ShortText(1e3 * step_m.PlainMean())};
+}
+
 bool HasMoved(const RecordedFrame& earlier, const RecordedFrame& later) {
   const Transform motion =
       earlier.frame.world_from_sensor.inverse() * later.frame.world_from_sensor;
@@ -52,7 +58,8 @@ Estimate TemporalNoise::Bin::Sigma_m() const {
 }
 
 Estimate TemporalNoise::Bin::RobustSigma_m() const {
-  return Scaled(differences_m.robust.RobustScale(), 1.0 / std::numbers::sqrt2);
+  return Scaled(differences_m.robust.RobustScale(step_m.PlainMean(), Rounded::kBoth),
+                1.0 / std::numbers::sqrt2);
 }
 
 void TemporalNoise::Add(const RecordedFrame& earlier,
@@ -73,6 +80,9 @@ void TemporalNoise::Add(const RecordedFrame& earlier,
   }
   ++num_pairs_;
   bins_.resize(RangeBins().size());
+  if (const double step_m = RangeStep_m(later); step_m > 0.0) {
+    for (Bin& bin : bins_) bin.step_m.Add(step_m);
+  }
   const ColumnFinder finder(*earlier_scan);
   // Azimuth step per column, signed by the rotor's direction.
   const auto& azimuths_rad = earlier_scan->column_azimuth_rad;
@@ -108,7 +118,9 @@ Section TemporalNoise::MakeSection() const {
                                {"none", !is_any},
                                {"few", is_any && num_pairs_ < kMinSamples}});
   if (!is_any) return section;
-  Table table = TableOf(kStatsWords, "temporal_noise");
+  Moments step_m;
+  for (const Bin& bin : bins_) step_m.Add(bin.step_m);
+  Table table = TableOf(kStatsWords, "temporal_noise", {StepValue(step_m)});
   for (std::size_t i = 0; i < bins_.size(); ++i) {
     if (bins_[i].differences_m.num() == 0) continue;
     table.rows.push_back({RangeBins().span(i), Scaled(bins_[i].Sigma_m(), kMm),

@@ -6,7 +6,9 @@
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <functional>
+#include <utility>
 
+#include "core/base/text.h"
 #include "core/base/units.h"
 #include "railcast/effects.h"
 
@@ -151,9 +153,10 @@ void AddBiases(const ChannelBiases& biases, FitResult& result) {
                                    : "not identified: fewer than 10 channels with 50 points each"});
 }
 
-void AddNoiseBins(const std::vector<NoiseTrial>& trials,
+void AddNoiseBins(const RecordedTrials& recorded,
                   const std::vector<double>& fitted_m,
                   FitResult& result) {
+  const std::vector<NoiseTrial>& trials = recorded.noise;
   constexpr std::size_t kMaxBins = 30;
   constexpr std::size_t kMinOfBin = 100;
   std::vector<std::size_t> order(trials.size());
@@ -174,9 +177,28 @@ void AddNoiseBins(const std::vector<NoiseTrial>& trials,
       residuals_m.push_back(static_cast<double>(trials[order[k]].residual_m));
     }
     sum.fitted_m = std::sqrt(sum.fitted_m);
-    sum.sigma_m = RobustScale(residuals_m);
+    sum.sigma_m = NoiseOf(std::move(residuals_m), recorded.step_m, result.is_from_turn_to_turn);
     result.noise_by_range.push_back(sum);
   }
+}
+
+std::string StepRemark(double step_m) {
+  return step_m > 0.0
+             ? "before rounding: the ranges come in steps of " + ShortText(1e3 * step_m) + " mm"
+             : "";
+}
+
+/// What the steps leave open of all noise, they leave open of its parts.
+void WidenBySteps(const Estimate& sigma_m, double step_m, FittedParameter& parameter) {
+  if (!parameter.estimate.is_enough()) return;
+  if (!(sigma_m.low > 0.0)) {
+    parameter.estimate = NotEnough(parameter.estimate.num);
+    parameter.remark = "not identified: the ranges come in steps of " + ShortText(1e3 * step_m) +
+                       " mm, which hide the noise";
+    return;
+  }
+  parameter.estimate.low *= sigma_m.low / sigma_m.value;
+  parameter.estimate.high *= sigma_m.high / sigma_m.value;
 }
 
 void FitNoise(RecordedTrials& trials, const FitSettings& settings, FitResult& result) {
@@ -191,24 +213,34 @@ void FitNoise(RecordedTrials& trials, const FitSettings& settings, FitResult& re
     residuals_m.push_back(static_cast<double>(trial.residual_m));
     ranges_m.push_back(static_cast<double>(trial.range_m));
   }
-  const Estimate sigma_m = RobustScale(residuals_m);
+  const Estimate sigma_m =
+      NoiseOf(std::move(residuals_m), trials.step_m, result.is_from_turn_to_turn);
+  const std::string of_steps = StepRemark(trials.step_m);
   result.parameters.push_back({"", "Noise, whatever range and signal", "m", sigma_m,
-                               sigma_m.is_enough() ? "" : "not identified: too few points"});
+                               sigma_m.is_enough() ? of_steps : "not identified: too few points"});
+  std::vector<NoiseTrial> noise_trials = trials.noise;
+  const std::size_t num_before = result.parameters.size();
+  if (sigma_m.is_enough() && !of_steps.empty()) {
+    TakeOutSteps(trials, sigma_m.value, result.is_from_turn_to_turn, noise_trials);
+  }
   if (settings.is_physical) {
     std::vector<double> inverse_snr;
-    if (knows_signal) inverse_snr = InverseSnr(trials.noise, settings);
-    const SignalNoise noise = FitSignalNoise(trials.noise, inverse_snr);
-    for (std::size_t i = 0; i < trials.noise.size(); ++i) {
-      fitted_m.push_back(noise.At(trials.noise[i], knows_signal ? inverse_snr[i] : 0.0));
+    if (knows_signal) inverse_snr = InverseSnr(noise_trials, settings);
+    const SignalNoise noise = FitSignalNoise(noise_trials, inverse_snr);
+    for (std::size_t i = 0; i < noise_trials.size(); ++i) {
+      fitted_m.push_back(noise.At(noise_trials[i], knows_signal ? inverse_snr[i] : 0.0));
     }
     AddSignalNoise(noise, settings, result);
-    AddBiases(biases, result);
   } else {
-    const LinearNoise noise = FitLinearNoise(trials.noise);
-    for (const NoiseTrial& trial : trials.noise) fitted_m.push_back(noise.At(trial));
+    const LinearNoise noise = FitLinearNoise(noise_trials);
+    for (const NoiseTrial& trial : noise_trials) fitted_m.push_back(noise.At(trial));
     AddLinearNoise(noise, Median(ranges_m).value, result);
   }
-  AddNoiseBins(trials.noise, fitted_m, result);
+  for (std::size_t i = num_before; i < result.parameters.size() && !of_steps.empty(); ++i) {
+    WidenBySteps(sigma_m, trials.step_m, result.parameters[i]);
+  }
+  if (settings.is_physical) AddBiases(biases, result);
+  AddNoiseBins(trials, fitted_m, result);
 }
 
 void AddLosses(const RecordedTrials& trials, const FitSettings& settings, FitResult& result) {

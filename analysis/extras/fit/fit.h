@@ -37,6 +37,19 @@ struct ChannelBiases {
 /// @returns Whether it did.
 bool TakeChanges(RecordedTrials& trials);
 
+/// The robust standard deviation of residuals: of those from turn to turn, or of those about
+/// pieces. Where ranges come in steps, it is that before rounding.
+[[nodiscard]] Estimate NoiseOf(std::vector<double> residuals_m,
+                               double step_m,
+                               bool is_from_turn_to_turn);
+
+/// Takes the steps of ranges out of the residuals, so that models can be fitted to them: spreads
+/// each over its step, and scales all so that their robust deviation is that before rounding.
+void TakeOutSteps(const RecordedTrials& trials,
+                  double sigma_m,
+                  bool is_from_turn_to_turn,
+                  std::vector<NoiseTrial>& noise);
+
 /// sigma = sigma0 + sigma1 R, both >= 0.
 struct LinearNoise {
   Estimate sigma0_m;

@@ -3,7 +3,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
+#include <utility>
 
 #include "analysis/estimate/streams.h"
 
@@ -134,6 +136,11 @@ Estimate NoiseInterval(const ScaleFit& fit, Eigen::Index place, std::uint64_t nu
   return {value, std::max(0.0, value - half), value + half, num};
 }
 
+// Changes from turn to turn are differences of two ranges, divided by sqrt(2).
+double ResidualStep_m(double step_m, bool is_from_turn_to_turn) {
+  return is_from_turn_to_turn ? step_m / std::numbers::sqrt2 : step_m;
+}
+
 // Converts an estimate of a square to its root.
 Estimate Root(const Estimate& square) {
   return {std::sqrt(square.value), std::sqrt(square.low), std::sqrt(square.high), square.num};
@@ -177,6 +184,32 @@ ChannelBiases TakeOutChannels(RecordedTrials& trials) {
   return result;
 }
 
+Estimate NoiseOf(std::vector<double> residuals_m, double step_m, bool is_from_turn_to_turn) {
+  if (!(step_m > 0.0)) return RobustScale(residuals_m);
+  RoundedSamples samples(ResidualStep_m(step_m, is_from_turn_to_turn));
+  for (const double residual_m : residuals_m) samples.Add(residual_m);
+  return RobustScale(samples, is_from_turn_to_turn ? Rounded::kBoth : Rounded::kOne);
+}
+
+void TakeOutSteps(const RecordedTrials& trials,
+                  double sigma_m,
+                  bool is_from_turn_to_turn,
+                  std::vector<NoiseTrial>& noise) {
+  constexpr double kGolden = 0.6180339887498949;
+  const double step_m = ResidualStep_m(trials.step_m, is_from_turn_to_turn);
+  std::vector<double> spread_m;
+  for (std::size_t i = 0; i < noise.size(); ++i) {
+    const double turn = kGolden * static_cast<double>(i);
+    spread_m.push_back(static_cast<double>(noise[i].residual_m) +
+                       step_m * (turn - std::floor(turn) - 0.5));
+  }
+  std::vector<double> sorted_m = spread_m;
+  const double scale = sigma_m / PlainRobustScale(sorted_m);
+  for (std::size_t i = 0; i < noise.size(); ++i) {
+    noise[i].residual_m = static_cast<float>(scale * spread_m[i]);
+  }
+}
+
 bool TakeChanges(RecordedTrials& trials) {
   constexpr std::size_t kLeast = 500;
   std::vector<double> residuals_m, changes_m;
@@ -186,7 +219,8 @@ bool TakeChanges(RecordedTrials& trials) {
     changes_m.push_back(static_cast<double>(trial.change_m));
   }
   if (changes_m.size() < kLeast) return false;
-  if (!(PlainRobustScale(changes_m) < PlainRobustScale(residuals_m))) return false;
+  const double changed_m = NoiseOf(std::move(changes_m), trials.step_m, true).value;
+  if (!(changed_m < NoiseOf(std::move(residuals_m), trials.step_m, false).value)) return false;
   std::erase_if(trials.noise, [](const NoiseTrial& trial) { return std::isnan(trial.change_m); });
   for (NoiseTrial& trial : trials.noise) trial.residual_m = trial.change_m;
   return true;

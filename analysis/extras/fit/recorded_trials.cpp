@@ -15,6 +15,7 @@
 #include "core/io/recording/column_finder.h"
 #include "core/io/recording/firing_truth.h"
 #include "core/io/recording/plausibility.h"
+#include "core/io/recording/range_step.h"
 
 namespace railcast {
 namespace {
@@ -151,12 +152,14 @@ void RecordedTrials::Add(const RecordedTrials& frame) {
   }
   num_frames += frame.num_frames;
   num_pieces += frame.num_pieces;
+  step_m = std::max(step_m, frame.step_m);
 }
 
 RecordedTrials TakeTrials(const RecordedFrame& recorded, const RecordedFrame* next) {
   NeedRanges(recorded);
   RecordedTrials trials;
   trials.num_frames = 1;
+  trials.step_m = RangeStep_m(recorded);
   std::optional<ScanTable> scan;
   if (recorded.is_grid) {
     scan = MakeScanTable(recorded.frame);

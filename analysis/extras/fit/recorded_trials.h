@@ -47,6 +47,7 @@ struct RecordedTrials {
   std::map<int, LossBin> losses;
   std::uint64_t num_frames{};
   std::uint32_t num_pieces{};
+  double step_m{};  ///< RangeStep_m() of the frames, the largest.
 
   /// Adds the trials of one more frame.
   void Add(const RecordedTrials& frame);

@@ -3,12 +3,16 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <utility>
 
+#include "core/base/median.h"
+#include "core/base/rounded_scale.h"
 #include "core/io/recording/column_finder.h"
 #include "core/io/recording/plausibility.h"
+#include "core/io/recording/range_step.h"
 #include "core/io/recording/surface_point.h"
 
 namespace railcast {
@@ -65,6 +69,63 @@ TurnNoise::Deviations DeviationOf(const BySector& differences, const BySector& l
   return {estimate(kShare, kOfNormal), estimate(1.0, 1.0)};
 }
 
+/// The deviation of one of two returns where readings come in steps that are no smaller than it.
+/// @param steps By sector and sample.
+JackknifedFigure RoundedDeviationOf(const BySector& differences, const BySector& steps) {
+  constexpr double kWidth = 0.1;  // Of the logarithm of steps that are taken together.
+  using Groups = std::map<std::int64_t, RoundedSamples>;
+  std::array<Groups, kNumSectors> sectors;
+  Groups all;
+  std::vector<std::uint64_t> sizes;
+  const auto in = [&](Groups& groups, std::int64_t group) -> RoundedSamples& {
+    const double step = std::exp(kWidth * static_cast<double>(group));
+    return groups.try_emplace(group, step).first->second;
+  };
+  for (std::size_t sector = 0; sector < kNumSectors; ++sector) {
+    for (std::size_t i = 0; i < differences.at(sector).size(); ++i) {
+      const double step = steps.at(sector)[i];
+      const std::int64_t group = std::llround(std::log(step) / kWidth);
+      RoundedSamples& of = in(sectors.at(sector), group);
+      of.Add(differences.at(sector)[i] / step * of.step);
+    }
+    for (const auto& [group, samples] : sectors.at(sector)) in(all, group).Add(samples);
+    sizes.push_back(differences.at(sector).size());
+  }
+  const auto scale_without = [&](std::size_t left_out) {
+    std::vector<RoundedSamples> rest;
+    for (const auto& [group, samples] : all) {
+      rest.push_back(samples);
+      if (left_out >= kNumSectors) continue;
+      const auto found = sectors.at(left_out).find(group);
+      if (found != sectors.at(left_out).end()) rest.back().Add(found->second, -1.0);
+    }
+    return FindRoundedScale(rest, Rounded::kBoth);
+  };
+  JackknifedFigure figure = Jackknife(
+      [&](std::size_t left_out) { return scale_without(left_out).value / std::numbers::sqrt2; },
+      sizes);
+  if (std::isnan(figure.value)) return figure;
+  // What the steps hide may be more than what differs from sector to sector.
+  constexpr double kErrors = 2.0 * 1.96 * std::numbers::sqrt2;  // In a 95 % interval.
+  const RoundedScale scale = scale_without(kNumSectors);
+  figure.error = std::max(figure.error, (scale.high - scale.low) / kErrors);
+  return figure;
+}
+
+/// Takes the deviation before rounding for the robust one, where steps are no smaller than that,
+/// and all turns have them.
+void SeeThroughSteps(const BySector& differences,
+                     const BySector& steps,
+                     TurnNoise::Deviations& deviations) {
+  std::vector<double> all;
+  for (std::size_t sector = 0; sector < kNumSectors; ++sector) {
+    if (steps.at(sector).size() != differences.at(sector).size()) return;
+    all.insert(all.end(), steps.at(sector).begin(), steps.at(sector).end());
+  }
+  if (!(MedianOf(all) >= deviations.robust.value)) return;
+  deviations.robust = RoundedDeviationOf(differences, steps);
+}
+
 SmoothTurn SmoothTurnOf(const RecordedFrame& recorded, const ScanTable& scan) {
   constexpr double kSpread_m = 0.03;
   constexpr double kLeastIntensity = 0.05;
@@ -96,11 +157,15 @@ SmoothTurn SmoothTurnOf(const RecordedFrame& recorded, const ScanTable& scan) {
 /// Differences of paired firings of two turns.
 struct TurnDifferences {
   BySector in_band, intensity, range_m;
+  /// What one step of the readings is in these differences; empty if they have none.
+  BySector in_band_step, range_step_m;
 
   void Add(const SmoothTurn& earlier, const SmoothTurn& later) {
     constexpr double kSame_m = 0.1;
     const ScanTable& scan = later.scan;
     const ColumnFinder finder(earlier.scan);
+    const double step_m = StepOfValues(later.range_m, kSame_m);
+    const double step = IntensityStep(later);
     for (std::size_t column = 0; column < scan.columns; ++column) {
       const double azimuth_rad = scan.column_azimuth_rad[column];
       if (std::isnan(azimuth_rad)) continue;
@@ -129,12 +194,22 @@ struct TurnDifferences {
         if (std::isnan(before + after) || std::abs(apart_m) > kSame_m) continue;
         const std::size_t sector = SectorOf(scan, row, column);
         const double mean = 0.5 * (std::exp(before) + std::exp(after));
-        if (mean >= 0.12 && mean <= 0.25) in_band.at(sector).push_back(times * (after - before));
+        const bool is_in_band = mean >= 0.12 && mean <= 0.25;
+        if (is_in_band) in_band.at(sector).push_back(times * (after - before));
         intensity.at(sector).push_back(times * (after - before));
         range_m.at(sector).push_back(times * apart_m);
+        if (is_in_band && step > 0.0) in_band_step.at(sector).push_back(times * step / mean);
+        if (step_m > 0.0) range_step_m.at(sector).push_back(times * step_m);
       }
     }
   }
+  static double IntensityStep(const SmoothTurn& turn) {
+    constexpr double kSame = 0.1;
+    std::vector<double> intensities;
+    for (const double of : turn.log_intensity) intensities.push_back(std::exp(of));
+    return StepOfValues(intensities, kSame);
+  }
+
   /// Whether whole sectors came nearer or went away: by more than 5 mm, root mean square.
   [[nodiscard]] bool HasMoved() const {
     constexpr double kMost_m = 0.005;
@@ -254,7 +329,9 @@ TurnNoise FindTurnNoise(const std::vector<SmoothTurn>& turns) {
   noise.has_moved = differences.HasMoved();
   if (noise.has_moved) differences = {};
   noise.intensity = DeviationOf(differences.in_band);
+  SeeThroughSteps(differences.in_band, differences.in_band_step, noise.intensity);
   noise.range_m = DeviationOf(differences.range_m);
+  SeeThroughSteps(differences.range_m, differences.range_step_m, noise.range_m);
   for (std::size_t lag = 0; lag < noise.texture.size(); ++lag) {
     noise.texture.at(lag) = DeviationOf(texture.differences.at(lag), differences.intensity);
     noise.texture_range_m.at(lag) =

@@ -81,7 +81,8 @@ inline constexpr std::array<double, 3> kTextureLags_m = {0.02, 0.1, 0.4};
 
 struct TurnNoise {
   /// A standard deviation from the smaller nine tenths of the magnitudes, as if they were normal,
-  /// and from all, to which markings and edges add.
+  /// and from all, to which markings and edges add. Where readings come in steps no smaller than
+  /// it, the robust one of noise is that before rounding (core/base/rounded_scale.h).
   struct Deviations {
     JackknifedFigure robust, rms;
   };

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 
 #include "analysis/stats/bins.h"
@@ -207,6 +208,44 @@ TEST(TemporalNoise, CorrectsForColumnsBesideEachOther) {
   ASSERT_GT(bin.differences_m.num(), 1000U);
   EXPECT_NEAR(bin.Sigma_m().value / 0.015, 1.0, 0.07);
   EXPECT_NEAR(bin.differences_m.plain.Mean().value, 0.0, 0.002);
+}
+
+/// Rounds the ranges of a frame, and moves its points along their beams.
+Frame InSteps(Frame frame, double step_m) {
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    const float before_m = frame.range_m[slot];
+    if (!std::isfinite(before_m)) continue;
+    const double steps = std::round(static_cast<double>(before_m) / step_m);
+    frame.range_m[slot] = static_cast<float>(step_m * steps);
+    const float scale = frame.range_m[slot] / before_m;
+    for (auto* field : {&frame.x, &frame.y, &frame.z}) (*field)[slot] *= scale;
+  }
+  return frame;
+}
+
+TEST(Noise, OfPlanesAndTurnsIsThatBeforeRounding) {
+  constexpr double kSigma_m = 0.002;
+  NoisyWall wall(25.0F, kSigma_m, NoiseShape::kBeam);
+  const auto scan = MakeScanTable(NoiseRaster());
+  for (const double steps : {0.1, 1.0, 2.0, 5.0}) {
+    SCOPED_TRACE(steps);
+    TemporalNoise temporal;
+    Noise planes;
+    for (std::uint32_t index = 0; index < 6; index += 2) {
+      const RecordedFrame first = Record(InSteps(wall.Scan(index), steps * kSigma_m));
+      const RecordedFrame second = Record(InSteps(wall.Scan(index + 1), steps * kSigma_m));
+      temporal.Add(first, second, &*scan, &*scan);
+      planes.Add(first, FindPlanePatches(first, &*scan));
+    }
+    const std::size_t bin = RangeBins().Find(25.0).value();
+    for (const Estimate& sigma_m :
+         {temporal.bins()[bin].RobustSigma_m(), planes.planes()[bin].RobustRangeSigma_m()}) {
+      EXPECT_NEAR(sigma_m.value / kSigma_m, 1.0, 0.1);
+      // Medians of patches have a standard error of a hundredth.
+      EXPECT_LT(sigma_m.low / kSigma_m, 1.02);
+      EXPECT_GT(sigma_m.high / kSigma_m, 0.98);
+    }
+  }
 }
 
 TEST(TemporalNoise, IsNotWhatAllBeamsShare) {

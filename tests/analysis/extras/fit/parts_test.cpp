@@ -162,6 +162,71 @@ TEST(Noise, IsNotEnoughOfFewPieces) {
   EXPECT_FALSE(FitSignalNoise(MakeNoise(9, 1, true), {}).floor_m.is_enough());
 }
 
+/// Residuals about pieces or from turn to turn, of ranges that were rounded.
+RecordedTrials RoundedTrials(double sigma_m, double step_m, bool is_from_turn_to_turn) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> range(1.0, 100.0);
+  std::normal_distribution<double> normal(0.0, sigma_m);
+  const auto error_m = [&](double range_m) {
+    return step_m * std::round((range_m + normal(random)) / step_m) - range_m;
+  };
+  RecordedTrials trials;
+  trials.step_m = step_m;
+  for (std::uint32_t i = 0; i < 20'000; ++i) {
+    const double range_m = range(random);
+    const double residual_m = error_m(range_m);
+    NoiseTrial& trial = trials.noise.emplace_back();
+    trial = {.range_m = static_cast<float>(range_m),
+             .residual_m = static_cast<float>(2.0 * residual_m),
+             .piece = i / 25};
+    if (!is_from_turn_to_turn) trial.residual_m = static_cast<float>(residual_m);
+    if (!is_from_turn_to_turn) continue;
+    trial.change_m = static_cast<float>((error_m(range_m) - residual_m) / std::sqrt(2.0));
+  }
+  return trials;
+}
+
+TEST(Noise, OfRoundedRangesIsThatBeforeRounding) {
+  constexpr double kSigma_m = 0.003;
+  for (const bool is_from_turn_to_turn : {true, false}) {
+    for (const double steps : {0.1, 1.0, 2.0, 5.0}) {
+      SCOPED_TRACE(steps);
+      RecordedTrials trials = RoundedTrials(kSigma_m, steps * kSigma_m, is_from_turn_to_turn);
+      const FitResult result = FitModel(trials, {});
+      EXPECT_EQ(result.is_from_turn_to_turn, is_from_turn_to_turn);
+      const FittedParameter& whole = result.parameters[0];
+      const FittedParameter& at_0 = result.parameters[1];
+      EXPECT_EQ(whole.remark.substr(0, 43), "before rounding: the ranges come in steps o");
+      EXPECT_NEAR(whole.estimate.value / kSigma_m, 1.0, 0.05);
+      EXPECT_NEAR(at_0.estimate.value / kSigma_m, 1.0, 0.1);
+      EXPECT_TRUE(Covers(whole.estimate, kSigma_m));
+      EXPECT_TRUE(Covers(at_0.estimate, kSigma_m));
+      for (const NoiseBin& bin : result.noise_by_range) {
+        EXPECT_NEAR(bin.sigma_m.value / kSigma_m, 1.0, 0.4);
+      }
+    }
+  }
+}
+
+TEST(Noise, ThatAStepHidesIsNotIdentified) {
+  RecordedTrials trials;
+  trials.step_m = 0.004;
+  for (std::uint32_t i = 0; i < 1000; ++i) {
+    trials.noise.push_back({.range_m = 10.0F,
+                            .residual_m = 1e-3F * static_cast<float>(i % 3),
+                            .change_m = 0.0F,
+                            .piece = i / 25});
+  }
+  const FitResult result = FitModel(trials, {});
+  const Estimate& whole = result.parameters[0].estimate;
+  EXPECT_EQ(whole.low, 0.0);
+  EXPECT_GT(whole.high, 5e-4);
+  EXPECT_LT(whole.high, 0.004);
+  EXPECT_FALSE(result.parameters[1].estimate.is_enough());
+  EXPECT_EQ(result.parameters[1].remark,
+            "not identified: the ranges come in steps of 4 mm, which hide the noise");
+}
+
 TEST(TakeOutChannels, FindsTheBiasOfEach) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;

@@ -117,6 +117,30 @@ TEST(ReceiverFigures, AreThoseOfAMadeRecording) {
   }
 }
 
+// Intensities and ranges as sensors store them. Where a step is no smaller than what is measured,
+// it is not what is measured, and the interval holds the truth.
+TEST(ReceiverFigures, SeeThroughSteps) {
+  const Truth truth{.noise = 0.03, .texture = 0.1, .range_noise_m = 0.002};
+  for (const double steps : {0.1, 1.0, 2.5, 5.0}) {
+    SCOPED_TRACE(steps);
+    std::vector<RecordedFrame> turns = MakeTurns(truth);
+    const auto round = [](float& value, double step) {
+      value = static_cast<float>(step * std::round(static_cast<double>(value) / step));
+    };
+    for (RecordedFrame& turn : turns) {
+      for (float& range_m : turn.frame.range_m) round(range_m, steps * truth.range_noise_m);
+      for (float& of : turn.frame.intensity) round(of, steps * truth.noise * 0.18);
+    }
+    const ReceiverFigures figures = FindReceiverFigures(turns);
+    EXPECT_NEAR(figures.intensity_noise.robust.value, truth.noise, 0.1 * truth.noise);
+    EXPECT_LE(figures.intensity_noise.robust.low, 1.01 * truth.noise);
+    EXPECT_GE(figures.intensity_noise.robust.high, 0.99 * truth.noise);
+    // All ranges are in the middle between two steps, or beside it.
+    EXPECT_LE(figures.range_noise_m.robust.low, 1.01 * truth.range_noise_m);
+    EXPECT_GE(figures.range_noise_m.robust.high, 0.99 * truth.range_noise_m);
+  }
+}
+
 // At four standard errors of the variance of 198 channels.
 TEST(ReceiverFigures, TellGainsByRangeFromThoseAtAllRanges) {
   constexpr std::size_t kChannels = 198;
