@@ -10,6 +10,7 @@
 #include "core/base/join.h"
 #include "core/base/median.h"
 #include "core/base/text.h"
+#include "core/points/level_areas.h"
 #include "generator/extras/survey/moving_things.h"
 #include "generator/extras/survey/survey_voxels.h"
 #include "generator/extras/survey/wire_finder.h"
@@ -38,6 +39,43 @@ void CheckByBeams(const FramesOfSurvey& frames,
   surfels = std::move(kept);
 }
 
+[[noreturn]] void AskForHeight(const std::string& why) {
+  throw InputError("--sensor-height: must be given, since " + why + " (got none)");
+}
+
+bool HasStood(const DrivenWay& way) {
+  constexpr double kMost_m = 0.5;
+  const Vector3 first_m = way.world_from_body.front().translation();
+  return std::ranges::all_of(way.world_from_body, [&](const Transform& world_from_body) {
+    return (world_from_body.translation() - first_m).norm() < kMost_m;
+  });
+}
+
+/// The height above the largest level area that a sensor sees which stands. What is right below it
+/// may be its vehicle.
+/// @throws InputError if there is none, or if two could be the ground.
+double HeightWhereItStands_m(const Vector3& place_m, const std::vector<MadeSurfel>& surfels) {
+  constexpr float kLevel = 0.9F;
+  std::vector<Eigen::Vector3f> points_m;
+  for (const MadeSurfel& surfel : surfels) {
+    if (std::abs(surfel.Normal().z()) < kLevel) continue;
+    points_m.emplace_back((surfel.center_m - place_m).cast<float>());
+  }
+  const GroundBelow ground = FindGroundBelow(points_m);
+  const auto text = [](const LevelArea& area) {
+    return ShortText(area.below_m) + " m below the sensor (" + ShortText(area.area_m2) +
+           " m2 of it seen)";
+  };
+  if (!ground.rivals.empty()) {
+    AskForHeight("two level areas could be that of the track: one " + text(ground.rivals[0]) +
+                 " and one " + text(ground.rivals[1]));
+  }
+  if (!ground.is_found) {
+    AskForHeight("no level area was seen below the sensor by which to tell the top of rail");
+  }
+  return ground.below_m;
+}
+
 /// The median height of the body's places above the ground below them.
 /// @throws InputError if none of them is above surveyed ground.
 double HeightAboveGround_m(const DrivenWay& way, const TilesByCell& tiles) {
@@ -50,9 +88,7 @@ double HeightAboveGround_m(const DrivenWay& way, const TilesByCell& tiles) {
     if (ground_m) heights_m.push_back(place_m.z() - *ground_m);
   }
   if (heights_m.empty()) {
-    throw InputError(
-        "--sensor-height: must be given, since no ground was seen below the sensor's way by which "
-        "to tell the top of rail (got none)");
+    AskForHeight("no ground was seen below the sensor's way by which to tell the top of rail");
   }
   return MedianOf(heights_m);
 }
@@ -97,8 +133,10 @@ Survey MakeSurvey(const FramesOfSurvey& frames,
   survey.labels = labels.names();
   TilesByCell tiles = TilesOf(surfels);
   if (!survey.is_way_of_vehicle && !survey.way.world_from_body.empty()) {
-    survey.way.above_rail_m =
-        options.sensor_height_m ? *options.sensor_height_m : HeightAboveGround_m(survey.way, tiles);
+    const Vector3 first_m = survey.way.world_from_body.front().translation();
+    survey.way.above_rail_m = options.sensor_height_m ? *options.sensor_height_m
+                              : HasStood(survey.way)  ? HeightWhereItStands_m(first_m, surfels)
+                                                      : HeightAboveGround_m(survey.way, tiles);
   }
   const std::vector<FoundWire> wires = TakeWires(survey.way, surfels);
   tiles = TilesOf(surfels);

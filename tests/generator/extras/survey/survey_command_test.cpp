@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <string>
@@ -109,13 +110,106 @@ TEST(SurveyCommand, TakesOneScaleOfIntensitiesForAllFiles) {
                                                  testing::FloatEq(32768.0F / 65535.0F)));
 }
 
+/// Makes one frame of a scenario of the folder as the sequence `name`.
+Ended MakeSurveyed(const std::filesystem::path& folder,
+                   const std::string& scenario,
+                   const std::string& name) {
+  const std::string scenarios = RAILCAST_SOURCE_DIR "/scenarios/";
+  WriteFileWhole(folder / "site.json",
+                 R"({"version": 1, "lidar": {"file": ")" + scenarios +
+                     R"(sensors/vlp16.json"}, "world": "out/world.json", "vehicle": )" +
+                     R"({"start_s_m": 60}, "materials": ")" + scenarios +
+                     R"(materials/railway.json", "labels": ")" + scenarios + R"(labels.json"})");
+  return Generate("sequence " + (folder / scenario).string() + " --frames 1 --out " +
+                  (folder / name).string() + " 2>&1");
+}
+
+/// Level squares about a sensor: half an edge, and the distance below the sensor.
+struct LevelSquare {
+  double half_m, below_m;
+  double ahead_m = 0.0;    ///< Of the middle.
+  double slope = 0.0;      ///< Upward ahead.
+  double nearest_m = 0.0;  ///< Nearer places are hidden.
+};
+
+/// Surveys one cloud of a sensor that stood.
+Ended SurveyStanding(const std::filesystem::path& folder,
+                     const std::vector<LevelSquare>& squares,
+                     const std::string& options = "") {
+  std::string points;
+  std::size_t num = 0;
+  for (const LevelSquare& square : squares) {
+    constexpr double kStep_m = 0.2;
+    const int most = static_cast<int>(square.half_m / kStep_m);
+    for (int i = -most; i <= most; ++i) {
+      for (int k = -most; k <= most; ++k) {
+        const double x_m = square.ahead_m + kStep_m * i;
+        const double y_m = kStep_m * k;
+        if (std::hypot(x_m, y_m) < square.nearest_m) continue;
+        points += NumberText(x_m) + " " + NumberText(y_m) + " " +
+                  NumberText(square.slope * x_m - square.below_m) + "\n";
+        ++num;
+      }
+    }
+  }
+  WriteFileWhole(folder / "cloud.ply", "ply\nformat ascii 1.0\nelement vertex " +
+                                           std::to_string(num) +
+                                           "\nproperty float x\nproperty float y\n"
+                                           "property float z\nend_header\n" +
+                                           points);
+  return Generate("survey " + (folder / "cloud.ply").string() + " --standing" + options +
+                  " --out " + (folder / "out").string() + " 2>&1");
+}
+
 TEST(SurveyCommand, WritesAWorldOfASensorThatStood) {
   const TemporaryDirectory directory;
+  EXPECT_THAT(
+      SurveyStanding(directory.path(), {{.half_m = 8.0, .below_m = 2.0}}),
+      ExitsWith(0, testing::HasSubstr("top of rail is taken to be 2 m below the sensor\n"
+                                      "the line begins 60 m before the first frame's place")));
+  const Json world = Json::parse(ReadFileWhole(directory.path() / "out" / "world.json"));
+  EXPECT_EQ(world.at("survey"), "scene.survey");
+  EXPECT_NEAR(world.at("alignment").at("start").at("position_m").at(2).get<double>(), -2.0, 1e-3);
+  EXPECT_THAT(MakeSurveyed(directory.path(), "site.json", "made"), ExitsWith(0));
+}
+
+TEST(SurveyCommand, RefusesAStandingSensorThatSawNothingNear) {
+  const TemporaryDirectory directory;
   WriteFileWhole(directory.path() / "ground.ply", GroundCloud());
-  const std::string cloud = (directory.path() / "ground.ply").string();
-  EXPECT_EQ(Generate("survey " + cloud + " --standing --out " + (directory.path() / "out").string())
-                .status,
-            1);  // Nothing is within 60 m of the sensor.
+  EXPECT_THAT(Generate("survey " + (directory.path() / "ground.ply").string() +
+                       " --standing --out " + (directory.path() / "out").string() + " 2>&1"),
+              ExitsWith(1, testing::HasSubstr("the survey: must have surfaces (got ")));
+}
+
+// Roofs of any size that carry the sensor, on level and on sloping ground, with the ground below
+// the sensor hidden.
+TEST(SurveyCommand, TakesTheGroundForTheRailAndNotTheRoofBelowTheSensor) {
+  for (const double roof_below_m : {0.115, 0.4, 0.9}) {
+    for (const double slope : {0.0, 0.05}) {
+      const TemporaryDirectory directory;
+      const Ended ended = SurveyStanding(
+          directory.path(), {{.half_m = 1.4, .below_m = roof_below_m},
+                             {.half_m = 10.0, .below_m = 1.95, .slope = slope, .nearest_m = 4.0}});
+      EXPECT_THAT(ended, ExitsWith(0, testing::ContainsRegex(
+                                          "top of rail is taken to be 1\\.9[45][0-9]* m below")));
+    }
+  }
+}
+
+TEST(SurveyCommand, AsksForTheHeightWhereTwoLevelAreasCompete) {
+  const TemporaryDirectory directory;
+  const std::vector<LevelSquare> track_and_platform = {
+      {.half_m = 6.0, .below_m = 3.0, .ahead_m = 6.0},
+      {.half_m = 5.4, .below_m = 2.04, .ahead_m = -6.6}};
+  EXPECT_THAT(SurveyStanding(directory.path(), track_and_platform),
+              ExitsWith(1, testing::MatchesRegex(
+                               "--sensor-height: must be given, since two level areas could be "
+                               "that of the track: one 3 m below the sensor \\([0-9.]+ m2 of it "
+                               "seen\\) and one 2.04 m below the sensor \\([0-9.]+ m2 of it "
+                               "seen\\) \\(got none\\)\n")));
+  EXPECT_FALSE(exists(directory.path() / "out" / "scene.survey"));
+  EXPECT_THAT(SurveyStanding(directory.path(), track_and_platform, " --sensor-height 3"),
+              ExitsWith(0, testing::HasSubstr("top of rail is taken to be 3 m below the sensor")));
 }
 
 TEST(SurveyCommand, SaysThatPosesAreMissing) {
@@ -183,20 +277,6 @@ TEST(SurveyCommand, AsksForTheSensorsHeightWhereNoGroundWasSeenBelowTheWay) {
   EXPECT_THAT(
       Generate(command + " --sensor-height 1.5"),
       ExitsWith(0, testing::HasSubstr("top of rail is taken to be 1.5 m below the sensor")));
-}
-
-/// Makes one frame of a scenario of the folder as the sequence `name`.
-Ended MakeSurveyed(const std::filesystem::path& folder,
-                   const std::string& scenario,
-                   const std::string& name) {
-  const std::string scenarios = RAILCAST_SOURCE_DIR "/scenarios/";
-  WriteFileWhole(folder / "site.json",
-                 R"({"version": 1, "lidar": {"file": ")" + scenarios +
-                     R"(sensors/vlp16.json"}, "world": "out/world.json", "vehicle": )" +
-                     R"({"start_s_m": 60}, "materials": ")" + scenarios +
-                     R"(materials/railway.json", "labels": ")" + scenarios + R"(labels.json"})");
-  return Generate("sequence " + (folder / scenario).string() + " --frames 1 --out " +
-                  (folder / name).string() + " 2>&1");
 }
 
 TEST(SurveyCommand, MakesScenesThatSequencesKeep) {
