@@ -37,8 +37,12 @@ int RunInspect(const InspectOptions& options, const std::string& command_line) {
     throw InputError(ShownPath(options.source) + ": must hold a frame");
   }
   if (!options.sensor_file.empty()) {
-    const auto find = [&] { return FindSensor(*OpenRecording(source)).FileText(); };
-    WriteFileWhole(options.sensor_file, AtPlace(ShownPath(options.source) + ": ", find));
+    const SensorSearch& sensor = inspection.sensor;
+    const auto text = [&] {
+      if (!sensor.found) throw InputError("no spinning sensor is found: " + sensor.why_not);
+      return sensor.found->FileText();
+    };
+    WriteFileWhole(options.sensor_file, AtPlace(ShownPath(options.source) + ": ", text));
   }
   Report report = MakeInspectionReport(inspection, info, command_line);
   if (auto section = CaptureSection({source})) report.sections.push_back(*section);

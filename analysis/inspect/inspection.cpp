@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/median.h"
 #include "core/base/units.h"
+#include "core/io/recording/range_step.h"
 #include "core/points/point_alignment.h"
 
 namespace railcast {
@@ -21,7 +24,10 @@ std::size_t SectorOf(double azimuth_rad) {
   return std::min(sector, RecordingLook::kNumSectors - 1);
 }
 
-void AddPoint(const RecordedFrame& recorded, std::size_t slot, RecordingLook& inspection) {
+void AddPoint(const RecordedFrame& recorded,
+              std::size_t slot,
+              RecordingLook& inspection,
+              std::vector<InspectedRing>& rings) {
   const Frame& frame = recorded.frame;
   const auto x_m = static_cast<double>(frame.x[slot]);
   const auto y_m = static_cast<double>(frame.y[slot]);
@@ -34,8 +40,8 @@ void AddPoint(const RecordedFrame& recorded, std::size_t slot, RecordingLook& in
     inspection.intensity.Add(static_cast<double>(frame.intensity[slot]));
   if (!recorded.Has("ring")) return;
   const std::size_t ring = frame.ring[slot];
-  if (ring >= inspection.rings.size()) inspection.rings.resize(ring + 1);
-  InspectedRing& of = inspection.rings[ring];
+  if (ring >= rings.size()) rings.resize(ring + 1);
+  InspectedRing& of = rings[ring];
   ++of.num_points;
   if (range_m < kFewest_m) return;
   of.elevation_deg.Add(
@@ -80,7 +86,8 @@ class MotionCheck {
   std::optional<Place> before_;
 };
 
-void LookAtFrame(const RecordedFrame& recorded, RecordingLook& inspection) {
+/// @returns What it has of rings.
+std::vector<InspectedRing> LookAtFrame(const RecordedFrame& recorded, RecordingLook& inspection) {
   const Frame& frame = recorded.frame;
   ++inspection.num_frames;
   inspection.num_grids += recorded.is_grid ? 1 : 0;
@@ -94,7 +101,6 @@ void LookAtFrame(const RecordedFrame& recorded, RecordingLook& inspection) {
     inspection.origin_m = recorded.origin_m;
     for (const ForeignField& field : recorded.foreign) inspection.foreign.push_back(field.name);
   }
-  inspection.sensor.Add(recorded);
   inspection.stamps_ns.push_back(frame.stamp_ns);
   if (recorded.Has("time_ns")) {
     inspection.durations_s.push_back(SecondsFromNs(std::int64_t{frame.duration_ns}));
@@ -103,11 +109,52 @@ void LookAtFrame(const RecordedFrame& recorded, RecordingLook& inspection) {
     inspection.world_from_sensor.push_back(frame.world_from_sensor);
     inspection.pose_stamps_ns.push_back(frame.stamp_ns);
   }
-  const std::uint64_t before = inspection.num_points;
+  std::vector<InspectedRing> rings;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
-    if (!std::isnan(frame.x[slot])) AddPoint(recorded, slot, inspection);
+    if (!std::isnan(frame.x[slot])) AddPoint(recorded, slot, inspection, rings);
   }
-  inspection.num_empty += inspection.num_points == before ? 1 : 0;
+  std::vector<std::uint64_t> ring_points;
+  for (const InspectedRing& ring : rings) ring_points.push_back(ring.num_points);
+  inspection.frames.push_back(InspectFrame(recorded, std::move(ring_points)));
+  inspection.num_empty += inspection.frames.back().num_points == 0 ? 1 : 0;
+  return rings;
+}
+
+/// Sums of rings by the number of the grids' rows.
+class RingSums {
+ public:
+  void Add(std::uint32_t num_rows, const std::vector<InspectedRing>& rings) {
+    auto& [num_frames, sums] = sums_[num_rows];
+    ++num_frames;
+    sums.resize(std::max(sums.size(), rings.size()));
+    for (std::size_t i = 0; i < rings.size(); ++i) {
+      sums[i].num_points += rings[i].num_points;
+      sums[i].elevation_deg.Add(rings[i].elevation_deg);
+    }
+  }
+  /// Those of most frames; of as many, those with the most rows.
+  [[nodiscard]] std::vector<InspectedRing> Most() const {
+    std::pair<std::size_t, std::vector<InspectedRing>> most;
+    for (const auto& [num_rows, sums] : sums_) {
+      if (sums.first >= most.first) most = sums;
+    }
+    return most.second;
+  }
+
+ private:
+  std::map<std::uint32_t, std::pair<std::size_t, std::vector<InspectedRing>>> sums_;
+};
+
+/// Puts together what single frames show of the sensor, but for odd ones.
+SensorSearch SensorWithoutOdd(const std::vector<InspectedFrame>& frames,
+                              const std::vector<SensorSearch>& searches) {
+  const bool are_all_odd =
+      std::ranges::all_of(frames, [](const InspectedFrame& frame) { return frame.has_odd_points; });
+  SensorSearch sensor;
+  for (std::size_t i = 0; i < searches.size(); ++i) {
+    if (are_all_odd || !frames[i].has_odd_points) sensor.Add(searches[i]);
+  }
+  return sensor;
 }
 
 }  // namespace
@@ -133,6 +180,9 @@ bool RecordingLook::HasStamps() const {
 RecordingLook Inspect(Recording& recording, std::size_t most_frames) {
   RecordingLook inspection;
   MotionCheck motion;
+  RingSums rings;
+  std::vector<SensorSearch> searches;
+  std::vector<double> steps_m;
   while (const auto read = recording.Next()) {
     if (inspection.num_frames == most_frames) {
       inspection.is_cut_short = true;
@@ -142,9 +192,16 @@ RecordingLook Inspect(Recording& recording, std::size_t most_frames) {
       break;
     }
     const RecordedFrame recorded = (*read)();
-    LookAtFrame(recorded, inspection);
+    rings.Add(recorded.frame.rows, LookAtFrame(recorded, inspection));
+    // Of twice as many frames as a search takes, since half of them may be odd.
+    if (searches.size() < 2 * SensorSearch::kMostFrames) searches.emplace_back().Add(recorded);
+    steps_m.push_back(RangeStep_m(recorded));
     motion.Add(recorded, inspection.num_frames - 1, inspection);
   }
+  inspection.rings = rings.Most();
+  inspection.range_step_m = steps_m.empty() ? 0.0 : MedianOf(steps_m);
+  JudgeFrames(inspection.HasStamps(), inspection.frames);
+  inspection.sensor = SensorWithoutOdd(inspection.frames, searches);
   return inspection;
 }
 

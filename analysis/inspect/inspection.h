@@ -45,6 +45,41 @@ struct MotionBetween {
   double registered_m{};  ///< Distance by registration.
 };
 
+/// One of a recording's frames, and what sets it apart from the others.
+struct InspectedFrame {
+  std::string name;  ///< As in messages.
+  std::uint64_t num_points{};
+  std::uint64_t num_doubled{};  ///< Points in places where the frame has one already.
+  /// Points of the file or message without a position; none of captures.
+  std::uint64_t num_missing{};
+  std::size_t num_rings{};       ///< With a hundredth of the median ring's points, or more.
+  std::uint64_t num_sparsest{};  ///< Points of the ring of these that has the fewest.
+  bool is_grid{};
+  std::int64_t stamp_ns{};
+  std::uint64_t hash{};                ///< Of positions and intensities.
+  std::optional<std::size_t> same_as;  ///< The first frame with the same.
+  /// Of the sensor above the ground (core/points/level_areas.h); NaN if it is not found.
+  double height_m = std::numeric_limits<double>::quiet_NaN();
+
+  std::vector<std::string> odd;  ///< JudgeFrames(): "has 200 points, where others have 57,734".
+  /// Whether its points are odd, rather than its time or that they came before.
+  bool has_odd_points{};
+};
+
+/// @param ring_points Number of points by ring; empty without rings.
+[[nodiscard]] InspectedFrame InspectFrame(const RecordedFrame& recorded,
+                                          std::vector<std::uint64_t> ring_points);
+
+/// Says what is odd of which frame: a number of points, of doubled or missing ones, or a height
+/// that is farther from the median over all frames than six robust standard deviations, a tenth of
+/// it, and what chance does; fewer or more rings than the median, where even the sparsest have 20
+/// points; steps of time of more than 1.5 times the median, or none, or back; points of a frame
+/// before. With fewer than three frames, nothing but the last two is odd.
+void JudgeFrames(bool has_stamps, std::vector<InspectedFrame>& frames);
+
+/// The table by frame, odd ones first; of many frames the first.
+[[nodiscard]] Section FramesSection(bool has_stamps, const std::vector<InspectedFrame>& frames);
+
 /// What the first frames of a recording show of it.
 struct RecordingLook {
   std::size_t num_frames{};
@@ -67,8 +102,13 @@ struct RecordingLook {
   std::vector<std::int64_t> pose_stamps_ns;  ///< Of the same frames.
   std::vector<MotionBetween> motions;        ///< Of some pairs of frames with poses.
 
+  /// Of the frames whose grids have as many rows as most: rows that are told by elevations have
+  /// other numbers where a ring is missing.
   std::vector<InspectedRing> rings;
-  SensorSearch sensor;  ///< What the points show.
+  /// What the points show of the first ten frames whose points are not odd.
+  SensorSearch sensor;
+  std::vector<InspectedFrame> frames;
+  double range_step_m{};  ///< Median of RangeStep_m().
   InspectedValues intensity;
   LogHistogram range_m;
   std::uint64_t num_near{};  ///< Points nearer than kNear_m.

@@ -122,7 +122,7 @@ Section TimesSection(const RecordingLook& seen) {
       findings.Add("step from frame to frame", ShortText(median_s) + " s",
                    "median; at most " + ShortText(*std::ranges::max_element(steps_s)) + " s");
       findings.Count("gaps", static_cast<std::uint64_t>(num_gaps),
-                     "steps of more than 1.5 times the median");
+                     num_gaps > 0 ? "steps of more than 1.5 times the median" : "");
     }
     findings.Count("doubled stamps", num_equal);
     findings.Count("stamps before the one before them", num_back);
@@ -213,15 +213,24 @@ Section ValuesSection(const RecordingLook& seen, const RecordingInfo& info) {
     add_range("range, median", seen.range_m.Median().value);
     add_range("range, 99.9 % are below", seen.range_m.Quantile(0.999).value);
     findings.Add("nearer than 0.5 m", ShareText(seen.num_near, seen.num_points),
-                 "dirt on the window, the vehicle itself, or noise");
+                 seen.num_near > 0 ? "dirt on the window, the vehicle itself, or noise" : "");
+    if (seen.range_step_m > 0.0) {
+      findings.Add("step of ranges", ShortText(1e3 * seen.range_step_m) + " mm",
+                   "found by the differences of neighbouring points");
+    }
   }
   const InspectedValues& intensity = seen.intensity;
   if (intensity.num > 0) {
     findings.Add("intensity", ShortText(intensity.least) + " to " + ShortText(intensity.highest),
                  ScaleOf(intensity, info));
     findings.Add("intensity 0", ShareText(intensity.num_zero, intensity.num));
+    constexpr double kLarge = 0.01;
+    const bool is_large =
+        static_cast<double>(intensity.num_highest) >= kLarge * static_cast<double>(intensity.num);
     findings.Add("intensity as high as any", ShareText(intensity.num_highest, intensity.num),
-                 "a large share is saturated");
+                 intensity.least == intensity.highest ? "all are alike"
+                 : is_large                           ? "a large share: they are saturated"
+                                                      : "");
     if (intensity.num_missing > 0) findings.Count("intensity missing", intensity.num_missing);
   } else {
     findings.Add("intensity", "none");
@@ -279,14 +288,18 @@ Section PosesSection(const RecordingLook& seen) {
   return findings.MakeSection();
 }
 
-Section RemarksSection(const std::vector<Remark>& remarks) {
+Section RemarksSection(const std::vector<Remark>& remarks, bool has_odd_frames) {
   Findings findings("remarks", "Remarks of the reader");
   for (const Remark& remark : remarks) {
     findings.Count(std::string(remark.type().name), remark.number, remark.Text());
   }
   return findings.MakeSection(
       remarks.empty()
-          ? std::vector<std::string>{"Nothing was left out, bridged, guessed or rounded."}
+          ? std::vector<std::string>{std::string(
+                                         "The reader left out, bridged, guessed and rounded "
+                                         "nothing") +
+                                     (has_odd_frames ? "; what is odd of single frames is above."
+                                                     : ".")}
           : std::vector<std::string>{});
 }
 
@@ -295,18 +308,21 @@ Section RemarksSection(const std::vector<Remark>& remarks) {
 Report MakeInspectionReport(const RecordingLook& inspection,
                             const RecordingInfo& info,
                             const std::string& command) {
+  const bool has_odd_frames = std::ranges::any_of(
+      inspection.frames, [](const InspectedFrame& frame) { return !frame.odd.empty(); });
   Report report;
   report.title = "Inspection of " + ShownPath(info.source);
   report.command = command;
   report.facts.emplace_back("Source", ShownPath(info.source) + " (" + info.kind + ")");
   report.sections = {JobsSection(JobsOf(inspection, info)), SensorSection(inspection, info),
+                     FramesSection(inspection.HasStamps(), inspection.frames),
                      TimesSection(inspection)};
   if (!inspection.rings.empty() && inspection.why_no_ranges.empty()) {
     report.sections.push_back(RingsSection(inspection));
   }
   report.sections.push_back(ValuesSection(inspection, info));
   report.sections.push_back(PosesSection(inspection));
-  report.sections.push_back(RemarksSection(info.remarks->List()));
+  report.sections.push_back(RemarksSection(info.remarks->List(), has_odd_frames));
   return report;
 }
 

@@ -362,15 +362,26 @@ FoundSensor FindSensor(const RecordedFrame& recorded) {
 
 void SensorSearch::Add(const RecordedFrame& recorded) {
   if (!goes_on()) return;
-  ++num_frames_;
+  SensorSearch one;
+  one.num_frames_ = 1;
   try {
-    FoundSensor now = FindSensor(recorded);
-    const auto size_of = [](const FoundSensor& sensor) {
-      return std::pair(sensor.pattern.channels.size(), sensor.num_points);
-    };
-    if (!found || size_of(now) > size_of(*found)) found = std::move(now);
+    one.found = FindSensor(recorded);
   } catch (const InputError& error) {
-    why_not = error.what();
+    one.why_not = error.what();
+  }
+  Add(std::move(one));
+}
+
+void SensorSearch::Add(SensorSearch other) {
+  if (!goes_on()) return;
+  const auto size_of = [](const FoundSensor& sensor) {
+    return std::pair(sensor.pattern.channels.size(), sensor.num_points);
+  };
+  num_frames_ += other.num_frames_;
+  if (!other.found) {
+    why_not = std::move(other.why_not);
+  } else if (!found || size_of(*other.found) > size_of(*found)) {
+    found = std::move(other.found);
   }
 }
 

@@ -45,7 +45,10 @@ class SensorSearch {
  public:
   /// Looks at the next frame, if the search goes on.
   void Add(const RecordedFrame& recorded);
-  [[nodiscard]] bool goes_on() const { return num_frames_ < 10; }
+  static constexpr int kMostFrames = 10;
+  [[nodiscard]] bool goes_on() const { return num_frames_ < kMostFrames; }
+  /// Adds what another search found, after this one.
+  void Add(SensorSearch other);
 
   std::optional<FoundSensor> found;
   std::string why_not = "it has no frame";  ///< Of the last frame that shows none.

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -136,6 +137,142 @@ TEST(Inspect, FindsPosesThatJump) {
   }
   const std::string text = LookText(LookAt(std::move(frames)));
   EXPECT_THAT(text, testing::ContainsRegex("highest speed from frame to frame +4960 m/s +a jump"));
+}
+
+/// What is odd of each frame: "0: has ...; 3: has ...".
+std::string OddOf(const RecordingLook& look) {
+  std::string text;
+  for (std::size_t i = 0; i < look.frames.size(); ++i) {
+    for (const std::string& odd : look.frames[i].odd) {
+      text += (text.empty() ? "" : "; ") + std::to_string(i) + ": " + odd;
+    }
+  }
+  return text;
+}
+
+/// Takes the points of a ring out of a frame, as if it had been without them when rows were told
+/// by elevations.
+void LoseRing(std::size_t lost, RecordedFrame& recorded) {
+  const Frame whole = recorded.frame;
+  Frame& frame = recorded.frame;
+  frame.Resize(whole.rows - 1, whole.columns, whole.returns);
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    const std::size_t row = slot / whole.width();
+    const std::size_t from = slot + (row >= lost ? whole.width() : 0);
+    frame.x[slot] = whole.x[from];
+    frame.y[slot] = whole.y[from];
+    frame.z[slot] = whole.z[from];
+    frame.range_m[slot] = whole.range_m[from];
+    frame.intensity[slot] = whole.intensity[from];
+    frame.ring[slot] = static_cast<std::uint16_t>(row);
+  }
+}
+
+void LosePoints(std::size_t kept, RecordedFrame& recorded) {
+  Frame& frame = recorded.frame;
+  std::size_t num = 0;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    if (!std::isnan(frame.x[slot]) && ++num > kept) frame.x[slot] = kNaN;
+  }
+}
+
+TEST(InspectFrames, NamesNoneWhereAllAreAlike) {
+  for (const char* const sensor : {"vlp16", "xt32", "pandar64"}) {
+    EXPECT_EQ(OddOf(LookAt(FramesOf(sensor, 8))), "") << sensor;
+  }
+}
+
+// Of any kind, at any place, up to almost half of them.
+TEST(InspectFrames, NamesThoseWithOtherPointsOrRings) {
+  for (const std::vector<std::size_t>& odd :
+       {std::vector<std::size_t>{0}, {7}, {2, 3, 4}, {0, 5, 8}}) {
+    auto frames = FramesOf("vlp16", 9);
+    for (const std::size_t i : odd) LosePoints(200, frames[i]);
+    const RecordingLook look = LookAt(std::move(frames));
+    EXPECT_THAT(OddOf(look), testing::StartsWith(std::to_string(odd.front()) +
+                                                 ": has 200 points, where others have "));
+    for (std::size_t i = 0; i < look.frames.size(); ++i) {
+      EXPECT_EQ(look.frames[i].has_odd_points, std::ranges::count(odd, i) > 0) << i;
+    }
+    auto with_ring_lost = FramesOf("vlp16", 9);
+    for (const std::size_t i : odd) LoseRing(5, with_ring_lost[i]);
+    EXPECT_THAT(OddOf(LookAt(with_ring_lost)),
+                testing::StartsWith(std::to_string(odd.front()) +
+                                    ": has 15 rings with points, where others have 16"));
+  }
+}
+
+TEST(InspectFrames, LeaveTheSensorToTheOthers) {
+  for (const std::size_t ring : {0U, 5U, 15U}) {
+    for (const std::size_t num_odd : {1U, 3U}) {
+      auto frames = FramesOf("vlp16", 8);
+      for (std::size_t i = 0; i < num_odd; ++i) LoseRing(ring, frames[2 * i]);
+      const RecordingLook look = LookAt(std::move(frames));
+      const auto guesses = GuessSensor(look.rings);
+      EXPECT_EQ(guesses.front().name, "VLP-16");
+      EXPECT_LT(guesses.front().error_deg, 0.01);
+      EXPECT_EQ(look.sensor.found->pattern.channels.size(), 16U);
+    }
+  }
+}
+
+TEST(InspectFrames, NamesCopiesDoubledAndMissingPoints) {
+  auto frames = FramesOf("vlp16", 6);
+  frames[3].frame.x = frames[2].frame.x;
+  frames[3].frame.y = frames[2].frame.y;
+  frames[3].frame.z = frames[2].frame.z;
+  frames[3].frame.intensity = frames[2].frame.intensity;
+  for (RecordedFrame& recorded : frames) {
+    for (std::uint32_t slot = 0; slot < recorded.frame.num_slots(); ++slot) {
+      if (!std::isnan(recorded.frame.x[slot])) recorded.slot_of_entry.push_back(slot);
+    }
+  }
+  frames[5].slot_of_entry.insert(frames[5].slot_of_entry.end(), 40, kNoSlot);
+  Frame& doubled = frames[0].frame;
+  std::size_t last = 0;
+  for (std::size_t slot = 1; slot < 1000; ++slot) {
+    for (auto* const of : {&doubled.x, &doubled.y, &doubled.z}) (*of)[slot] = (*of)[last];
+    if (slot % 2 == 0) last = slot + 1;
+  }
+  const std::string odd = OddOf(LookAt(frames));
+  EXPECT_THAT(odd, testing::ContainsRegex("0: has [0-9]+ doubled points, where others have 0"));
+  EXPECT_THAT(odd, HasSubstr("3: has the same points as frame 2"));
+  EXPECT_THAT(odd, HasSubstr("5: has 40 points without a position, where others have 0"));
+  const std::string text = LookText(LookAt(frames));
+  EXPECT_THAT(text, HasSubstr("3 of 6 frames are unlike the others: they come first."));
+  EXPECT_THAT(text, HasSubstr("what is odd of single frames is above."));
+}
+
+TEST(InspectFrames, NamesGapsOfTime) {
+  auto frames = FramesOf("vlp16", 8);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    frames[i].frame.stamp_ns = static_cast<std::int64_t>(i + (i >= 5 ? 3 : 1)) * 100'000'000;
+  }
+  EXPECT_EQ(OddOf(LookAt(std::move(frames))),
+            "5: comes 0.3 s after the last, where others come 0.1 s after theirs");
+}
+
+TEST(Inspect, RemarksOnlyOnFiguresToWhichTheyApply) {
+  auto frames = FramesOf("vlp16");
+  for (RecordedFrame& recorded : frames) {
+    Frame& frame = recorded.frame;
+    for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+      if (frame.range_m[slot] < 1.0F) frame.x[slot] = kNaN;
+      frame.intensity[slot] = 0.001F * static_cast<float>(slot % 1000);
+    }
+  }
+  const std::string clean = LookText(LookAt(frames));
+  EXPECT_THAT(clean, testing::ContainsRegex("nearer than 0.5 m +0 % *\n"));
+  EXPECT_THAT(clean, testing::ContainsRegex("intensity as high as any +0.[0-9]+ % *\n"));
+  for (RecordedFrame& recorded : frames) {
+    for (std::size_t slot = 0; slot < recorded.frame.num_slots(); slot += 50) {
+      recorded.frame.range_m[slot] = 0.3F;
+      recorded.frame.intensity[slot] = 1.0F;
+    }
+  }
+  const std::string spoilt = LookText(LookAt(frames));
+  EXPECT_THAT(spoilt, HasSubstr("dirt on the window"));
+  EXPECT_THAT(spoilt, HasSubstr("a large share: they are saturated"));
 }
 
 TEST(JobsOf, TellsWhatIsMissingForWhat) {
