@@ -92,10 +92,8 @@ class ConvertedBag final : public ConvertOutput {
     // With all frames it may have been closed, and cannot be gone on with.
     const bool is_begun = num_done > 0 && num_done < num_frames_ && fs::exists(unfinished) &&
                           !fs::exists(path_ / "metadata.yaml");
-    if (is_begun) {
-      writer_ = is_mcap_ ? bag::ContinueMcap(path_, bag::McapCompression::kZstd, num_done)
-                         : bag::ContinueRosbag2(path_, num_done);
-    } else {
+    if (is_begun) writer_ = Continued(num_done);
+    if (!writer_) {
       fs::remove_all(path_);
       fs::remove(unfinished);
       writer_ = is_mcap_ ? bag::CreateMcap(path_) : bag::CreateRosbag2(path_);
@@ -151,6 +149,19 @@ class ConvertedBag final : public ConvertOutput {
   }
 
  private:
+  // The bag after its first commits; nothing if what there is of it cannot be read.
+  [[nodiscard]] std::unique_ptr<bag::BagWriter> Continued(std::uint32_t num_commits) const {
+    try {
+      if (is_mcap_) return bag::ContinueMcap(path_, bag::McapCompression::kZstd, num_commits);
+      const auto reader = bag::OpenBag(path_);
+      while (reader->Next()) {
+      }
+      return bag::ContinueRosbag2(path_, num_commits);
+    } catch (const InputError&) {
+      return nullptr;
+    }
+  }
+
   [[nodiscard]] ros::TfMessage PosesOf(const Frame& frame) const {
     ros::TfMessage message;
     const auto add = [&](std::uint32_t time_ns, const Transform& pose) {

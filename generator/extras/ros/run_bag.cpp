@@ -150,11 +150,10 @@ void RunBag::RefuseStrangers() const {
     for (const auto& entry : fs::directory_iterator(bag)) {
       std::string name = entry.path().filename().string();
       name = std::string(FinishedName(name).value_or(name));
-      const bool is_own = name.starts_with(bag.filename().string() + "_0.db3") ||
-                          name == "metadata.yaml" || name.ends_with(kManifestFile) ||
-                          std::ranges::any_of(attachments_, [&](const auto& attachment) {
-                            return attachment.first == name;
-                          });
+      const bool is_own =
+          IsOfDatabase(bag / name) || name == "metadata.yaml" || name.ends_with(kManifestFile) ||
+          std::ranges::any_of(attachments_,
+                              [&](const auto& attachment) { return attachment.first == name; });
       if (is_own && !entry.is_directory()) continue;
       RefuseStranger(bag.parent_path(),
                      entry.path().lexically_relative(bag.parent_path()).string());

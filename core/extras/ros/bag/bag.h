@@ -118,7 +118,7 @@ struct McapTrace {
 /// Creates an MCAP file, with a chunk for each commit. It is named `file` + kUnfinishedSuffix until
 /// it is closed.
 /// @param trace Absent: the file has the profile ros2.
-/// @throws InputError if the file cannot be created, or as FileToReplace() does.
+/// @throws InputError if the file cannot be created, or as CheckIsOwnFile() does.
 [[nodiscard]] std::unique_ptr<BagWriter> CreateMcap(
     const std::filesystem::path& file,
     McapCompression compression = McapCompression::kZstd,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/text.h"
+#include "core/extras/ros/bag/sqlite_database.h"
 #include "core/io/content_hash.h"
 #include "core/io/record/read_record.h"
 #include "core/io/record/record_text.h"
@@ -24,13 +25,53 @@ std::string CommitHash(std::span<const std::uint64_t> messages) {
   return ContentHash({reinterpret_cast<const char*>(messages.data()), messages.size_bytes()});
 }
 
+fs::path DatabaseOf(const fs::path& bag) {
+  return bag / (bag.filename().string() + "_0.db3");
+}
+
+/// All that a database says beside its messages, and that the ids of these count them.
+constexpr std::array<const char*, 8> kTables = {
+    "PRAGMA integrity_check(1)",
+    "PRAGMA user_version",
+    "SELECT quote(type) || quote(name) || quote(tbl_name) || quote(sql) FROM sqlite_master "
+    "ORDER BY type, name",
+    "SELECT quote(schema_version) || quote(ros_distro) FROM schema ORDER BY schema_version",
+    "SELECT quote(id) || quote(metadata_version) || quote(metadata) FROM metadata ORDER BY id",
+    "SELECT quote(id) || quote(name) || quote(type) || quote(serialization_format) || "
+    "quote(offered_qos_profiles) || quote(type_description_hash) FROM topics ORDER BY id",
+    "SELECT quote(id) || quote(topic_type) || quote(encoding) || "
+    "quote(encoded_message_definition) || quote(type_description_hash) "
+    "FROM message_definitions ORDER BY id",
+    "SELECT quote(min(id)) || quote(max(id)) || quote(count(*)) FROM messages"};
+
+std::string HashOfTables(const fs::path& file) {
+  bag::SqliteDatabase database(file, bag::SqliteAccess::kRead, ShownPath(file));
+  std::string all;
+  for (const char* sql : kTables) {
+    bag::SqliteStatement rows(database, sql);
+    while (rows.Step()) all += rows.Text(0) + '\0';
+  }
+  return ContentHash(all);
+}
+
+void CompareTables(const fs::path& database, const std::string& hash, ErrorList& faults) {
+  for (const fs::path& beside : bag::ChangesBeside(database)) {
+    faults.Add({ShownPath(beside), "must be empty: the bag is complete without it", ""});
+  }
+  const std::string got = HashOfTables(database);
+  if (got == hash) return;
+  faults.Add({ShownPath(database),
+              "must have tables of the hash " + ShownText(hash) + ", as " +
+                  std::string(kBagLinesFile) + " says",
+              got});
+}
+
 // The files of a bag that keep their bytes, by their names beside the file of lines.
 std::vector<std::string> FixedFilesOf(const fs::path& bag) {
   if (!fs::is_directory(bag)) return {bag.filename().string()};
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(bag)) {
-    const bool is_of_database = entry.path().filename().string().find(".db3") != std::string::npos;
-    if (is_of_database) continue;
+    if (IsOfDatabase(entry.path())) continue;
     names.push_back(entry.path().lexically_relative(bag.parent_path()).generic_string());
   }
   std::ranges::sort(names);
@@ -46,6 +87,7 @@ void CompareFiles(const fs::path& bag, const BagLines& lines, ErrorList& faults)
     faults.Add(
         {ShownPath(bag.parent_path() / name), "is not named in " + std::string(kBagLinesFile), ""});
   }
+  if (!lines.tables.empty()) CompareTables(DatabaseOf(bag), lines.tables, faults);
 }
 
 }  // namespace
@@ -54,6 +96,8 @@ void Describe(Archive& a, BagLineRecord& s) {
   a.Optional("messages", s.num_messages, "Of a commit.");
   a.Optional("xxh3", s.hash, "Hash of these.");
   a.Optional("files_xxh3", s.files, "Hashes of the bag's files; in the last line alone.");
+  a.Optional("tables_xxh3", s.tables,
+             "Hash of what a database holds beside its messages; in the last line alone.");
 }
 
 fs::path BagLinesFile(const fs::path& bag) {
@@ -102,7 +146,15 @@ std::string BagFilesLine(const fs::path& bag) {
   for (const std::string& name : FixedFilesOf(bag)) {
     line.files[name] = HashFile(bag.parent_path() / name).hash;
   }
+  if (fs::is_directory(bag)) line.tables = HashOfTables(DatabaseOf(bag));
   return HashedRecordLine(line);
+}
+
+bool IsOfDatabase(const fs::path& file) {
+  const std::string database = DatabaseOf(file.parent_path()).filename().string();
+  const std::string name = file.filename().string();
+  return std::ranges::any_of(std::array{"", "-wal", "-shm", "-journal"},
+                             [&](const char* suffix) { return name == database + suffix; });
 }
 
 BagLines ReadBagLines(const fs::path& file) {
@@ -120,6 +172,7 @@ BagLines ReadBagLines(const fs::path& file) {
       lines.commits.push_back({record.num_messages.value_or(0), record.hash, begin});
     } else {
       lines.files = std::move(record.files);
+      lines.tables = std::move(record.tables);
     }
   }
   return lines;

@@ -36,14 +36,18 @@ class Archive;
 /// The line of a commit, with its end.
 [[nodiscard]] std::string CommitLine(std::span<const std::uint64_t> messages);
 /// The last line: the hashes of a complete bag's files. That of a database is not among them, since
-/// its bytes change when it is opened; the hashes of its messages stand for it.
+/// its bytes change when it is opened; the hashes of its messages and of its tables stand for it.
 [[nodiscard]] std::string BagFilesLine(const std::filesystem::path& bag);
+
+/// Whether a file of a rosbag2 directory is its database, or what SQLite may leave beside that.
+[[nodiscard]] bool IsOfDatabase(const std::filesystem::path& file);
 
 /// A line: of a commit, or the last one.
 struct BagLineRecord {
   std::optional<std::size_t> num_messages{};
   std::string hash{};  ///< Of these.
   std::map<std::string, std::string> files{};
+  std::string tables{};  ///< Hash of what a database holds beside its messages.
 };
 void Describe(Archive& a, BagLineRecord& s);
 
@@ -56,6 +60,7 @@ struct BagLines {
   };
   std::vector<Commit> commits;
   std::map<std::string, std::string> files{};  ///< Hashes by name; none while it is unfinished.
+  std::string tables{};  ///< Of a database; empty in bags of earlier releases.
 };
 
 /// Reads the lines up to the first that is incomplete or was changed; none without a file.

@@ -189,7 +189,7 @@ std::unique_ptr<BagWriter> ContinueMcap(const std::filesystem::path& file,
                                         McapCompression compression,
                                         std::size_t max_commits,
                                         const std::optional<McapTrace>& trace) {
-  const std::filesystem::path unfinished = UnfinishedMcap(FileToReplace(file));
+  const std::filesystem::path unfinished = UnfinishedMcap(file);
   const mcap::ByteFile content(unfinished, ShownPath(unfinished));
   if (content.size() < mcap::kMagic.size()) return CreateMcap(file, compression, trace);
   const mcap::ScannedFile found = mcap::ScanUndamaged(content);

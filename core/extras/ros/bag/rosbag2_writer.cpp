@@ -173,12 +173,18 @@ class Rosbag2Writer : public BagWriter {
 
   void InsertMetadata() {
     constexpr auto kVersion = MetadataVersion::kJazzy;
-    // Of a bag that was interrupted as it was closed.
+    const std::string text = MetadataText(ReadMetadata(), kVersion);
+    // A database that was closed keeps its bytes if only files beside it are written anew.
+    if (HasMetadata(text)) return;
     database_.Run("DELETE FROM metadata");
     SqliteStatement(database_, "INSERT INTO metadata (metadata_version, metadata) VALUES (?, ?)")
-        .With(static_cast<std::int64_t>(kVersion),
-              std::string_view(MetadataText(ReadMetadata(), kVersion)))
+        .With(static_cast<std::int64_t>(kVersion), std::string_view(text))
         .Step();
+  }
+
+  [[nodiscard]] bool HasMetadata(const std::string& text) {
+    SqliteStatement found(database_, "SELECT metadata FROM metadata");
+    return found.Step() && found.Text(0) == text;
   }
 
   std::filesystem::path directory_;

@@ -22,6 +22,7 @@ namespace railcast::bag {
 namespace {
 
 void CopyFileTo(const std::filesystem::path& file, const std::filesystem::path& copy) {
+  CheckIsOwnFile(copy);
   std::error_code error;
   std::filesystem::copy_file(file, copy, std::filesystem::copy_options::overwrite_existing, error);
   if (error) throw FileError(copy, error.value());
@@ -31,8 +32,9 @@ void CopyFileTo(const std::filesystem::path& file, const std::filesystem::path& 
 class SqliteCopy : public BagCopy {
  public:
   SqliteCopy(const std::filesystem::path& file, const std::filesystem::path& copy)
-      : copy_(FileToReplace(copy)), unfinished_(copy_.string() + std::string(kUnfinishedSuffix)) {
+      : copy_(copy), unfinished_(copy_.string() + std::string(kUnfinishedSuffix)) {
     CheckIsReadable(file);
+    CheckIsOwnFile(copy_);
     CopyFileTo(file, unfinished_);
     for (const std::filesystem::path& beside : ChangesBeside(file)) {
       const std::string suffix = beside.string().substr(file.string().size());

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/io/write_file.h"
 
 namespace railcast::bag {
 namespace {
@@ -51,6 +52,7 @@ SqliteDatabase::SqliteDatabase(const std::filesystem::path& file,
   if (access == SqliteAccess::kRead) flags = SQLITE_OPEN_READONLY | SQLITE_OPEN_URI;
   if (access != SqliteAccess::kCreate) CheckIsReadable(file);
   const bool is_read = access == SqliteAccess::kRead;
+  if (!is_read) CheckIsOwnFile(file);
   sqlite3* handle = nullptr;
   const int status =
       sqlite3_open_v2(is_read ? ReadOnlyUri(file).c_str() : file.c_str(), &handle, flags, nullptr);

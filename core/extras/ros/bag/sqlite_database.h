@@ -25,7 +25,8 @@ enum class SqliteAccess : std::uint8_t {
 class SqliteDatabase {
  public:
   /// @param name Names it in messages.
-  /// @throws InputError "name: reason" if it cannot be opened.
+  /// @throws InputError "name: reason" if it cannot be opened; as CheckIsOwnFile() if it is to be
+  ///   written.
   SqliteDatabase(const std::filesystem::path& file, SqliteAccess access, std::string name);
   SqliteDatabase(const SqliteDatabase&) = delete;
   SqliteDatabase& operator=(const SqliteDatabase&) = delete;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -355,6 +356,31 @@ TEST_F(ConvertRecording, MakesWhatWasChangedAnew) {
     EXPECT_THAT(ConvertAll({.recording = clouds, .directory = out, .format = format}).changed,
                 testing::SizeIs(1));
     EXPECT_TRUE(FilesOf(out) == whole) << format;
+  }
+}
+
+// What is left of a bag that was interrupted: nothing, no bytes, a part, or others.
+TEST_F(ConvertRecording, BeginsABagAnewOfWhichNotAllCanBeRead) {
+  const fs::path run = MakeRun("pcd");
+  for (const std::string format : {"mcap", "rosbag2"}) {
+    (void)ConvertTo(format, run / "frames", Path(format));
+    const auto whole = FilesOf(Path(format));
+    const ConvertChoices choices = {
+        .recording = run / "frames", .directory = Path(format + "_begun"), .format = format};
+    const fs::path bag =
+        choices.directory / (format == "mcap" ? "frames.mcap.part" : "rosbag2/rosbag2_0.db3");
+    const std::vector<std::function<void()>> harms = {
+        [&] { fs::remove(bag); }, [&] { fs::resize_file(bag, 0); },
+        [&] { fs::resize_file(bag, 50); },
+        [&] { fs::resize_file(bag, fs::file_size(bag) * 2 / 3); },
+        [&] { WriteFileWhole(bag, std::string(5000, 'x')); }};
+    for (std::size_t i = 0; i < harms.size(); ++i) {
+      EXPECT_FALSE(ConvertAll(choices, 2).is_complete);
+      harms[i]();
+      EXPECT_TRUE(ConvertAll(choices).is_complete);
+      EXPECT_TRUE(FilesOf(choices.directory) == whole) << format << " " << i;
+      fs::remove_all(choices.directory);
+    }
   }
 }
 

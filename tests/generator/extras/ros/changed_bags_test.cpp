@@ -90,6 +90,57 @@ TEST_F(ChangedBags, OfRosbag2AreFaultsWhicheverFileBesideTheDatabaseWasChanged) 
               ElementsAre((out / "rosbag2/notes").string() + ": is not named in bag.jsonl"));
 }
 
+// What the hashes of messages do not tell.
+TEST_F(ChangedBags, OfRosbag2AreFaultsWhateverWasChangedBesideTheMessages) {
+  const fs::path whole = Make("whole", "--format rosbag2 " + frames_);
+  const fs::path out = Out("bag");
+  const fs::path database = out / "rosbag2/rosbag2_0.db3";
+  for (const char* sql :
+       {"UPDATE topics SET offered_qos_profiles = replace(offered_qos_profiles, 'reliable', "
+        "'best_effort') WHERE id = 1",
+        "UPDATE topics SET offered_qos_profiles = '' WHERE id = 2",
+        "INSERT INTO topics (name, type, serialization_format, offered_qos_profiles, "
+        "type_description_hash) VALUES ('/a', 'b', 'cdr', '', '')",
+        "UPDATE message_definitions SET type_description_hash = '' WHERE id = 1",
+        "UPDATE message_definitions SET encoding = 'ros2idl' WHERE id = 3",
+        "UPDATE metadata SET metadata = metadata || ' '", "DELETE FROM metadata",
+        "UPDATE schema SET ros_distro = 'iron'", "UPDATE schema SET schema_version = 3",
+        "CREATE TABLE more(id INTEGER)", "DROP INDEX timestamp_idx", "PRAGMA user_version = 3",
+        "UPDATE messages SET id = id + 1000"}) {
+    Restore(out, whole);
+    bag::SqliteDatabase(database, bag::SqliteAccess::kChange, "bag").Run(sql);
+    EXPECT_THAT(FaultsOf(out),
+                testing::Contains(HasSubstr(database.string() + ": must have tables of the hash ")))
+        << sql;
+  }
+  Restore(out, whole);
+  WriteFileWhole(database.string() + "-wal", "x");
+  EXPECT_THAT(
+      FaultsOf(out),
+      testing::Contains(database.string() + "-wal: must be empty: the bag is complete without it"));
+  fs::remove(database.string() + "-wal");
+  WriteFileWhole(database.string() + ".bak", "x");
+  EXPECT_THAT(FaultsOf(out), ElementsAre(database.string() + ".bak: is not named in bag.jsonl"));
+}
+
+TEST_F(ChangedBags, OfRosbag2GetTheirBytesBackWhicheverFileWasRemoved) {
+  const std::string options = "--format rosbag2 " + frames_;
+  const fs::path out = Make("bag", options);
+  const std::vector<std::string> names = {
+      "rosbag2/rosbag2_0.db3", "rosbag2/metadata.yaml", "rosbag2/scenario.resolved.json",
+      "rosbag2/labels.json",   "rosbag2/manifest.json", "bag.jsonl",
+      "manifest.json"};
+  std::vector<std::string> whole;
+  for (const std::string& name : names) whole.push_back(ReadFileWhole(out / name));
+  for (const std::string& removed : names) {
+    fs::remove(out / removed);
+    (void)Make("bag", options);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      EXPECT_TRUE(ReadFileWhole(out / names[i]) == whole[i]) << removed << ": " << names[i];
+    }
+  }
+}
+
 TEST_F(ChangedBags, OfMcapAreFaultsWhicheverMessageIsMissing) {
   const fs::path out = Make("bag", "--format mcap " + frames_);
   const fs::path bag = out / "frames.mcap";

@@ -190,6 +190,22 @@ TEST_F(BagWriting, ReportsAFullDisk) {
             "/dev/full: must be a regular file (got a character device)");
 }
 
+TEST_F(BagWriting, FollowsNoLinksToDatabases) {
+  {
+    const auto bag = CreateRosbag2(In("mine"));
+    WriteFrames(*bag, 1);
+  }
+  const std::string before = ReadFileWhole(In("mine/mine_0.db3"));
+  std::filesystem::create_directory(In("bag"));
+  std::filesystem::create_symlink(In("mine/mine_0.db3"), In("bag/bag_0.db3"));
+  const std::string refusal =
+      In("bag/bag_0.db3").string() + ": must be a regular file (got a symbolic link)";
+  EXPECT_EQ(MessageOf([&] { (void)ContinueRosbag2(In("bag"), kAllCommits); }), refusal);
+  EXPECT_EQ(MessageOf([&] { (void)CopySqliteBag(In("mine/mine_0.db3"), In("bag/bag_0.db3")); }),
+            refusal);
+  EXPECT_EQ(ReadFileWhole(In("mine/mine_0.db3")), before);
+}
+
 // What a recorder that was killed leaves beside its database.
 TEST_F(BagWriting, IsReadFromTheWriteAheadLogOfAnInterruptedRecorder) {
   {
