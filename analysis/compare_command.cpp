@@ -13,6 +13,7 @@
 #include "core/base/join.h"
 #include "core/fidelity/sample_frames.h"
 #include "core/io/recording/source_choice.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/program/progress_line.h"
 #include "core/program/version.h"
@@ -116,6 +117,7 @@ int RunAblation(const CompareOptions& options, const std::string& command_line) 
   if (options.sensor) scenario = PickSensor(scenario, options.sensor);
   if (options.seed) scenario.seed = *options.seed;
   const std::vector<std::string> names = SensorNames(scenario);
+  if (names.size() > 1 && !options.output.out.empty()) RefuseLinks(options.output.out, names);
   const auto simulators = MakeSimulators(scenario, options.num_threads);
   // Several reports are one JSON array.
   const bool is_array = names.size() > 1 && options.output.is_json;
@@ -131,7 +133,8 @@ int RunAblation(const CompareOptions& options, const std::string& command_line) 
 }
 
 int RunCompare(const CompareOptions& options, const std::string& command_line) {
-  CheckReportFolder(options.output.out);
+  CheckReportFolder(options.output.out,
+                    {options.scenario.empty() ? "compare.json" : "ablation.json"});
   const tbb::global_control limit = LimitThreads(options.num_threads);
   return options.scenario.empty() ? RunPairs(options, command_line)
                                   : RunAblation(options, command_line);

@@ -54,7 +54,7 @@ std::vector<std::pair<std::string, std::string>> FactsOf(const std::vector<Recor
 }
 
 int RunDetect(const DetectOptions& options, const std::string& command_line) {
-  CheckReportFolder(options.output.out);
+  CheckReportFolder(options.output.out, {"detect.json"});
   const DetectSpec spec = options.rule.Spec();
   std::vector<RecordingInfo> infos;
   std::vector<DetectRun> runs;

@@ -59,7 +59,8 @@ std::string IdentityText(const FrontierPlan& plan, const std::string& scenario_h
 }
 
 int RunFrontier(const FrontierOptions& options, const std::string& command_line) {
-  CheckReportFolder(options.out);
+  CheckReportFolder(options.out, {"frontier.json", "frontier.csv", "frontier.svg", "frontier.png",
+                                  "frontier.part"});
   FrontierPlan plan;
   plan.rows = ChooseFrontierRows(options.rows);
   plan.num_threads = options.num_threads;
@@ -103,6 +104,9 @@ int RunFrontier(const FrontierOptions& options, const std::string& command_line)
              FrontierJson(plan, circumstances, LabelTable(scenario.labels), results));
   DrawSheet(report.sections.front().charts, report.title, options.out / "frontier");
   kept.Remove();
+  if (const std::string busy = BusyText(ConditionsOf(plan, results)); !busy.empty()) {
+    std::cout << busy << "\n";
+  }
   std::cout << "frontier.csv, .svg, .png in " << ShownPath(options.out) << "\n";
   return kExitSuccess;
 }

@@ -27,7 +27,7 @@ struct InspectOptions {
 };
 
 int RunInspect(const InspectOptions& options, const std::string& command_line) {
-  CheckReportFolder(options.output.out);
+  CheckReportFolder(options.output.out, {"inspect.json"});
   CheckOutputFiles({{"SOURCE", options.source}}, {{"--sensor-file", options.sensor_file}});
   const std::filesystem::path source = WithChoice({options.source}, options.choice).front();
   const auto recording = OpenRecording(source);
@@ -42,7 +42,7 @@ int RunInspect(const InspectOptions& options, const std::string& command_line) {
       if (!sensor.found) throw InputError("no spinning sensor is found: " + sensor.why_not);
       return sensor.found->FileText();
     };
-    WriteFileWhole(options.sensor_file, AtPlace(ShownPath(options.source) + ": ", text));
+    WriteNamedFile(options.sensor_file, AtPlace(ShownPath(options.source) + ": ", text));
   }
   Report report = MakeInspectionReport(inspection, info, command_line);
   if (auto section = CaptureSection({source})) report.sections.push_back(*section);

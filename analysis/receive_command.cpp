@@ -138,7 +138,7 @@ int RunReceive(const ReceiveOptions& options) {
   counter.ThrowIfFailed();
   std::cout << ReceiveSummary(counter.totals(), counts);
   if (options.summary) {
-    WriteFileWhole(*options.summary, ReceiveSummaryJson(counter.totals(), counts));
+    WriteNamedFile(*options.summary, ReceiveSummaryJson(counter.totals(), counts));
   }
   return kExitSuccess;
 }

@@ -213,7 +213,7 @@ Section SheetSection(const std::vector<MeasuredSource>& sources) {
 }
 
 int RunStats(const StatsOptions& options, const std::string& command_line) {
-  CheckReportFolder(options.output.out);
+  CheckReportFolder(options.output.out, {"stats.json"});
   const tbb::global_control limit = LimitThreads(options.num_threads);
   // Of captures, a sensor is chosen by its address, of sequences by its name.
   SourceChoice choice = options.choice;

@@ -16,6 +16,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/io/cloud/pcd_encoder.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/stream/stream_clouds.h"
 #include "core/io/write_file.h"
 
@@ -69,6 +70,7 @@ std::string RateText(const ReceivedTotals& totals) {
 }  // namespace
 
 ReceivedFiles::ReceivedFiles(const std::filesystem::path& directory) : directory_(directory) {
+  RefuseLinks(directory_, {"frames", kIndexName});
   std::error_code error;
   std::filesystem::create_directories(directory_ / "frames", error);
   if (error) throw FileError(directory_, error.value());

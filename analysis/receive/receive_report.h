@@ -18,7 +18,8 @@ namespace railcast {
 /// datagram arrived, and LatencyOf() it.
 class ReceivedFiles {
  public:
-  /// @throws InputError if the directory cannot be made or already holds a recording.
+  /// @throws InputError if the directory cannot be made or already holds a recording; as
+  ///   RefuseLinks().
   explicit ReceivedFiles(const std::filesystem::path& directory);
 
   /// @throws InputError if the file cannot be written.

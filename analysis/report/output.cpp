@@ -144,9 +144,11 @@ void AddReportOptions(ProgramOptions& command, ReportOutput& output) {
       .Check(Named({"text", "json"}));
 }
 
-void CheckReportFolder(const std::filesystem::path& out) {
+void CheckReportFolder(const std::filesystem::path& out, std::vector<std::string> own) {
   if (out.empty()) return;
   CheckIsOutside("--out", out);
+  own.insert(own.end(), {"report.html", "csv", "charts"});
+  RefuseLinks(out, own);
   std::error_code ignored;
   const bool is_new = !std::filesystem::exists(out, ignored);
   MakeFolders(out);

@@ -23,8 +23,9 @@ void AddReportOptions(ProgramOptions& command, ReportOutput& output);
 /// a folder, and is to be outside of those of CheckIsOutside(). Leaves
 /// no folder but those above it.
 /// @param out Nothing is checked if it is empty.
-/// @throws InputError if it cannot or must not.
-void CheckReportFolder(const std::filesystem::path& out);
+/// @param own Names of what the command writes beside the page and the folders of EmitReport().
+/// @throws InputError if it cannot or must not, or as RefuseLinks().
+void CheckReportFolder(const std::filesystem::path& out, std::vector<std::string> own);
 
 /// Writes DIR/report.html, DIR/`name`.json, DIR/csv/TABLE.csv and DIR/charts/CHART.svg and .png,
 /// and prints the report or, without --format, its headlines and the paths of the files. Tables and

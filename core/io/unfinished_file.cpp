@@ -13,9 +13,11 @@
 namespace railcast {
 
 UnfinishedFile::UnfinishedFile(std::filesystem::path file, std::uint64_t size)
-    : file_(std::move(file)), target_(FileToReplace(file_)) {
+    : file_(std::move(file)) {
+  CheckIsOwnFile(file_);
   constexpr int kAccess = 0644;
-  descriptor_ = FileDescriptor(::open(unfinished().c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kAccess));
+  descriptor_ = FileDescriptor(
+      ::open(unfinished().c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, kAccess));
   const auto kept = static_cast<off_t>(size);
   if (!descriptor_.is_open() || ::ftruncate(descriptor_.number(), kept) != 0 ||
       ::lseek(descriptor_.number(), kept, SEEK_SET) != kept) {
@@ -24,7 +26,7 @@ UnfinishedFile::UnfinishedFile(std::filesystem::path file, std::uint64_t size)
 }
 
 std::filesystem::path UnfinishedFile::unfinished() const {
-  return target_.string() + std::string(kUnfinishedSuffix);
+  return file_.string() + std::string(kUnfinishedSuffix);
 }
 
 void UnfinishedFile::Append(std::span<const std::byte> bytes) const {
@@ -65,7 +67,7 @@ void UnfinishedFile::Sync() const {
 }
 
 void UnfinishedFile::Finish() const {
-  if (::fsync(descriptor_.number()) != 0 || ::rename(unfinished().c_str(), target_.c_str()) != 0) {
+  if (::fsync(descriptor_.number()) != 0 || ::rename(unfinished().c_str(), file_.c_str()) != 0) {
     throw FileError(file_, errno);
   }
 }

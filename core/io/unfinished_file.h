@@ -20,11 +20,12 @@ namespace railcast {
   return name.substr(0, name.size() - kUnfinishedSuffix.size());
 }
 
-/// A file that has the suffix kUnfinishedSuffix until it is finished. All functions throw
-/// InputError if the system refuses.
+/// A file in a folder of railcast's that has the suffix kUnfinishedSuffix until it is finished. All
+/// functions throw InputError if the system refuses.
 class UnfinishedFile {
  public:
   /// @param size What is kept of the unfinished file.
+  /// @throws InputError as CheckIsOwnFile() does.
   UnfinishedFile(std::filesystem::path file, std::uint64_t size);
 
   void Append(std::span<const std::byte> bytes) const;
@@ -46,7 +47,6 @@ class UnfinishedFile {
   [[nodiscard]] std::filesystem::path unfinished() const;
 
   std::filesystem::path file_;
-  std::filesystem::path target_;
   FileDescriptor descriptor_;
 };
 

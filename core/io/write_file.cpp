@@ -39,9 +39,31 @@ FileDescriptor OpenUnfinished(const std::filesystem::path& file,
                               const std::filesystem::path& unfinished) {
   constexpr int kAccess = 0644;
   FileDescriptor output(
-      ::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kAccess));
+      ::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, kAccess));
   if (!output.is_open()) throw FileError(file, errno);
   return output;
+}
+
+// Throws if the entry of this name is anything but a file; a link is itself.
+void CheckEntryIsRegular(const std::filesystem::path& file) {
+  std::error_code error;
+  CheckIsRegular(file, std::filesystem::symlink_status(file, error));
+}
+
+// @param file Named in errors.
+void Replace(const std::filesystem::path& file,
+             const std::filesystem::path& target,
+             std::string_view bytes) {
+  const std::filesystem::path unfinished = UnfinishedOf(target);
+  FileDescriptor output = OpenUnfinished(file, unfinished);
+  const bool is_written = WriteAll(output.number(), bytes) &&
+                          HasLength(output.number(), bytes.size()) &&
+                          ::fsync(output.number()) == 0 && output.Close() &&
+                          ::rename(unfinished.c_str(), target.c_str()) == 0;
+  if (is_written) return;
+  const int error_number = errno;
+  ::unlink(unfinished.c_str());
+  throw FileError(file, error_number);
 }
 
 }  // namespace
@@ -59,9 +81,13 @@ std::filesystem::path FileToReplace(const std::filesystem::path& file) {
     target = target.parent_path() / std::filesystem::read_symlink(target, error);
     if (error) throw FileError(file, error.value());
   }
-  const std::filesystem::path unfinished = UnfinishedOf(target);
-  CheckIsRegular(unfinished, std::filesystem::symlink_status(unfinished, error));
+  CheckEntryIsRegular(UnfinishedOf(target));
   return target;
+}
+
+void CheckIsOwnFile(const std::filesystem::path& file) {
+  CheckEntryIsRegular(file);
+  CheckEntryIsRegular(UnfinishedOf(file));
 }
 
 void CheckCanWrite(const std::filesystem::path& file) {
@@ -71,17 +97,12 @@ void CheckCanWrite(const std::filesystem::path& file) {
 }
 
 void WriteFileWhole(const std::filesystem::path& file, std::string_view bytes) {
-  const std::filesystem::path target = FileToReplace(file);
-  const std::filesystem::path unfinished = UnfinishedOf(target);
-  FileDescriptor output = OpenUnfinished(file, unfinished);
-  const bool is_written = WriteAll(output.number(), bytes) &&
-                          HasLength(output.number(), bytes.size()) &&
-                          ::fsync(output.number()) == 0 && output.Close() &&
-                          ::rename(unfinished.c_str(), target.c_str()) == 0;
-  if (is_written) return;
-  const int error_number = errno;
-  ::unlink(unfinished.c_str());
-  throw FileError(file, error_number);
+  CheckIsOwnFile(file);
+  Replace(file, file, bytes);
+}
+
+void WriteNamedFile(const std::filesystem::path& file, std::string_view bytes) {
+  Replace(file, FileToReplace(file), bytes);
 }
 
 }  // namespace railcast

@@ -52,6 +52,7 @@ class Report {
     return LineText(world_->alignment(), scenario_.world.alignment.gauge_mm, is_verbose) +
            NetworkText(*world_) +
            VehicleText(StartTrack(*world_, scenario_.vehicle), way, scenario_.lidar.scan) +
+           RideText(scenario_.vehicle) +
            RouteText(*world_, FindLateralPeak(*world_, scenario_.vehicle, way));
   }
 
@@ -172,7 +173,7 @@ int RunCheck(const CheckOptions& options) {
     std::cout << ResolvedScenarioJson(scenario);
     return kExitSuccess;
   }
-  if (options.resolved) WriteFileWhole(*options.resolved, ResolvedScenarioJson(scenario));
+  if (options.resolved) WriteNamedFile(*options.resolved, ResolvedScenarioJson(scenario));
   PrintReport(scenario, world, frames, {options.is_verbose, cost_share});
   if (options.resolved)
     std::cout << "resolved scenario in " << ShownPath(*options.resolved) << "\n";

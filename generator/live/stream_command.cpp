@@ -264,7 +264,7 @@ int ReportRun(const LiveResult& result, const LiveStreams& streams, const Stream
     std::cout << "capture: " << ShownLines(fault) << "\n";
   if (result.log_fault) std::cout << "log: " << ShownLines(*result.log_fault) << "\n";
   if (options.summary) {
-    WriteFileWhole(*options.summary, LiveSummaryJson("stream", result, streams.Delivered(),
+    WriteNamedFile(*options.summary, LiveSummaryJson("stream", result, streams.Delivered(),
                                                      capture_faults, has_times));
   }
   if (result.fault) std::cerr << ShownLines(*result.fault) << "\n";

@@ -79,7 +79,7 @@ bool PrintSummaries(const std::optional<std::filesystem::path>& summary,
     unfinished += std::to_string(spec.FrameAt(results[i].num_done));
     if (plan.is_in_folders()) unfinished += " of " + ShownLines(name);
   }
-  if (summary) WriteFileWhole(*summary, SummaryJson(summarized));
+  if (summary) WriteNamedFile(*summary, SummaryJson(summarized));
   if (unfinished.empty()) return true;
   std::cerr << "interrupted; the same command continues with frame " << unfinished << "\n";
   return false;
@@ -145,7 +145,7 @@ int RunSequenceCommand(const SequenceOptions& options) {
   if (!has_all) return kExitInterrupted;
   if (result.is_complete && options.picture) {
     const SequenceSpec& spec = plan.sensors.front().spec;
-    WriteFileWhole(*options.picture, PictureOfFrame(plan, spec.FrameAt(spec.num_frames - 1),
+    WriteNamedFile(*options.picture, PictureOfFrame(plan, spec.FrameAt(spec.num_frames - 1),
                                                     options.made.num_threads));
   }
   if (result.is_complete) return kExitSuccess;

@@ -146,7 +146,7 @@ int RunWorld(const WorldOptions& options) {
   if (options.is_verbose) SayTriangles(exported, labels);
   const std::size_t num_triangles = size.gathered.num_triangles;
   std::cerr << "writing " << Amount(num_triangles, "triangles, ") << SizeText(bytes.size()) << "\n";
-  WriteFileWhole(options.out, bytes);
+  WriteNamedFile(options.out, bytes);
   std::cout << Amount(num_triangles, "triangles of ") << Amount(chunks.size(), "chunks in ")
             << ShownPath(options.out) << "\n";
   return kExitSuccess;

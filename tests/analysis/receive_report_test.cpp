@@ -6,6 +6,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "tests/core/io/message_of.h"
+#include "tests/core/io/temporary_directory.h"
+
 namespace railcast {
 namespace {
 
@@ -34,6 +37,19 @@ ReceivedFrame FrameAt(std::int64_t stamp_ns, std::int64_t arrival_ns) {
   frame.first_arrival_ns = arrival_ns - 90 * kMs_ns;
   frame.last_arrival_ns = arrival_ns;
   return frame;
+}
+
+TEST(ReceivedFiles, AreNotPutWhereLinksLead) {
+  for (const std::string name : {"frames", "frames.csv", "frames/000000.pcd"}) {
+    const TemporaryDirectory directory;
+    const auto out = directory.path() / "out";
+    create_directories((out / name).parent_path());
+    create_directory(directory.path() / "mine");
+    std::filesystem::create_symlink("../mine/nothing", out / name);
+    EXPECT_EQ(MessageOf([&] { const ReceivedFiles files(out); }),
+              (out / name).string() + ": must not be a symbolic link");
+    EXPECT_TRUE(is_empty(directory.path() / "mine"));
+  }
 }
 
 TEST(ReceiveReport, KnowsTheLatencyOfStampsThatAreATimeOfDay) {

@@ -3,7 +3,9 @@
 Each command that makes a folder of numbered items makes a small one. Of the folder, a file of each kind is removed, cut, or
 changed by a byte, or an unfinished file is left beside it: one of these damages, each in its turn and two at once, or with
 --all each alone; a run is killed several times; and its disk is full. The same command must then make the folder again, with the same bytes. A
-folder of another run and one with a file of others are refused in one line, and nothing in them is changed.
+folder of another run and one with a file of others are refused in one line, and nothing in them is changed. So is one in
+which a link stands in place of a file or a folder of any kind, by the command (a file or two and a folder; with --all each)
+and by verify: what the link leads to stays as it is.
 """
 
 import concurrent.futures
@@ -30,7 +32,9 @@ ENVIRONMENT = {**os.environ, "SOURCE_DATE_EPOCH": "0"}
 INPUTS = ("generate sequence coarse.json --frames 4 --out drive",
           "generate sequence rig.json --frames 3 --format kitti --out kitti_drive",
           "generate sequence rig.json --frames 3 --format mcap --out bag_drive",
-          "generate stream sensor_vlp16.json --protocol vlp16 --duration 0.3 --pcap vlp16.pcap")
+          "generate stream sensor_vlp16.json --protocol vlp16 --duration 0.3 --pcap vlp16.pcap",
+          "generate dataset recipe_small.json --shard 1/2 --out shard_1",
+          "generate dataset recipe_small.json --shard 2/2 --out shard_2")
 # By name: the command that makes the folder and mends it, and the files that say whose it is: without them, or with others,
 # it is another's.
 KINDS = {
@@ -53,6 +57,7 @@ KINDS = {
     "converted_rosbag2": ("generate convert kitti_drive out --format rosbag2", ("run.json",)),
     "dataset": ("generate dataset recipe_small.json --out out", ("dataset.json",)),
     "shard": ("generate dataset recipe_small.json --shard 2/2 --out out", ("dataset.json",)),
+    "merged": ("generate merge shard_1 shard_2 --out out", ("dataset.json",)),
     "dataset_mcap": ("generate dataset recipe_small.json --format mcap --out out", ("dataset.json",)),
     "dataset_of_sensors": ("generate dataset recipe_two.json --merged --out out", ("dataset.json",)),
     "dataset_of_plans": ("generate dataset recipe_plans.json --out out", ("dataset.json",)),
@@ -93,8 +98,8 @@ class Folder:
         program = f"railcast-{program}"
         return [str(self.build / small_runs.PROGRAMS[program] / program), *words]
 
-    def run(self, out):
-        return subprocess.run(self.words(), cwd=out.parent, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    def run(self, out, text=None):
+        return subprocess.run(self.words(text), cwd=out.parent, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                               check=False, env=ENVIRONMENT)
 
 
@@ -204,6 +209,42 @@ def try_stranger(folder, whole, within):
     return said and f"{folder.kind}: a stranger in {within}: {said}"
 
 
+def all_of(path):
+    """The bytes of a file, or of all files of a folder; nothing where there is none."""
+    return {file: file.read_bytes() for file in (path, *path.rglob("*")) if file.is_file() and not file.is_symlink()}
+
+
+def link_fault(folder, target, name, elsewhere, text=None):
+    """What is wrong with what a command says of a folder in which `name` is a link; None if it refuses the link."""
+    before = all_of(target), all_of(elsewhere)
+    ended = folder.run(target, text)
+    lines = (ended.stdout + ended.stderr if text else ended.stderr).strip().splitlines()
+    if ended.returncode != 1 or len(lines) != 1 or name not in lines[0] or "symbolic link" not in lines[0]:
+        return f"exit status {ended.returncode}, {len(lines)} lines: {lines[:2]}"
+    return None if (all_of(target), all_of(elsewhere)) == before else "refused, but changed"
+
+
+def try_links(folder, whole, turn, has_all):
+    """Puts a link in place of each kind of file and folder: to what was there or, of every second one, to nothing."""
+    target, faults = folder.place("links"), []
+    copy_of(whole, target)
+    files = one_of_each(sorted(str(file.relative_to(whole)) for file in whole.rglob("*") if file.is_file()))
+    folders = one_of_each(sorted(str(file.relative_to(whole)) for file in whole.rglob("*") if file.is_dir()))
+    tried = {files[turn % len(files)], files[(3 * turn + 1) % len(files)], *(folders[turn % len(folders):][:1] if folders else [])}
+    for i, name in enumerate(files + folders):
+        kept = target.parent / "kept"
+        (target / name).rename(kept)
+        elsewhere = target.parent / ("nothing" if (i + turn) % 2 else "kept")
+        (target / name).symlink_to(elsewhere)
+        for text in ("analyze verify out", None) if has_all or name in tried else ("analyze verify out",):
+            said = link_fault(folder, target, name, elsewhere, text)
+            faults += [f"{folder.kind}: {text or folder.command}: a link {name}: {said}"] if said else []
+        (target / name).unlink()
+        kept.rename(target / name)
+    shutil.rmtree(target.parent)
+    return "\n".join(faults)
+
+
 def try_kills(folder, wanted, duration_s, num=4):
     target = folder.place("killed")
     moments = random.Random(folder.kind)
@@ -266,6 +307,7 @@ def check(folder, turn, pool, has_all):
     shares = (0.2, 0.5, 0.8)
     results.append(pool.submit(try_full_disk, folder, wanted, num_bytes, shares if has_all else [shares[turn % 3]]))
     results += [pool.submit(try_stranger, folder, whole, name) for name in (".", *one_of_each(sorted(folders)))]
+    results.append(pool.submit(try_links, folder, whole, turn, has_all))
     results.append(pool.submit(try_kills, folder, wanted, duration_s))
     return results
 

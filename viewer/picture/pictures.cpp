@@ -25,7 +25,7 @@ void WritePicture(vtkRenderWindow& window, const std::filesystem::path& file) {
   writer->Write();
   vtkUnsignedCharArray* const bytes = writer->GetResult();
   const auto size = static_cast<std::size_t>(bytes->GetNumberOfTuples());
-  WriteFileWhole(file, {reinterpret_cast<const char*>(bytes->GetPointer(0)), size});
+  WriteNamedFile(file, {reinterpret_cast<const char*>(bytes->GetPointer(0)), size});
 }
 
 PictureFolder::PictureFolder(const std::filesystem::path& directory) : directory_(directory) {

@@ -29,7 +29,7 @@ struct CardOptions {
 };
 
 void CheckOut(const fs::path& out) {
-  CheckReportFolder(out);
+  CheckReportFolder(out, {"card.json", kCardFile});
   // People write files of this name, too.
   const fs::path readme = out / kCardFile;
   if (fs::exists(readme) && !ReadFileWhole(readme).starts_with("# Data set ")) {

@@ -86,7 +86,7 @@ class RunUnderTest {
 };
 
 int RunEvaluate(EvaluateOptions options, const std::string& command_line) {
-  CheckReportFolder(options.output.out);
+  CheckReportFolder(options.output.out, {"evaluate.json"});
   CheckDistinct(options.sources);
   if (!options.detections.empty() && options.detections.size() != options.sources.size()) {
     throw InputError("--detections: must be a file for each run, " +

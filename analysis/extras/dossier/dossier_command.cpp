@@ -23,7 +23,7 @@ struct DossierOptions {
 };
 
 int RunDossierCommand(const DossierOptions& options, const std::string& command_line) {
-  CheckReportFolder(options.output.out);
+  CheckReportFolder(options.output.out, {"dossier.json", "dossier.pdf"});
   FinishedStudy study = ReadFinishedStudy(options.study);
   study.spec.table = options.table;
   // Wrong names are said before the error is measured, which takes minutes.

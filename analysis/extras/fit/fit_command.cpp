@@ -104,7 +104,7 @@ void Judge(const FitProof& proof,
 }
 
 int RunFit(const FitOptions& options, const std::string& command_line) {
-  CheckReportFolder(options.output.out);
+  CheckReportFolder(options.output.out, {"fit.json", "fitted.json", "fitted_scenario.json"});
   const tbb::global_control limit = LimitThreads(options.num_threads);
   const auto sources = WithChoice(options.sources, options.choice);
   CheckDistinct(sources);

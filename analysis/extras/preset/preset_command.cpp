@@ -32,7 +32,7 @@ Sectors SectorsOf(const std::string& name) {
 }
 
 int RunPreset(const PresetOptions& options, const std::string& command_line) {
-  CheckReportFolder(options.output.out);
+  CheckReportFolder(options.output.out, {"preset.json"});
   const tbb::global_control limit = LimitThreads(options.num_threads);
   const std::filesystem::path source = WithChoice({options.source}, options.choice).front();
   const auto recording = OpenRecording(source);

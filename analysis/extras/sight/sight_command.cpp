@@ -27,7 +27,7 @@ struct SightOptions {
 };
 
 int RunSight(const SightOptions& options, const std::string& command_line) {
-  CheckReportFolder(options.output.out);
+  CheckReportFolder(options.output.out, {"sight.json"});
   const auto limit = LimitThreads(options.num_threads);
   SightSpec spec = options.spec;
   if (options.speed_kmph) spec.speed_mps = MpsFromKmph(*options.speed_kmph);

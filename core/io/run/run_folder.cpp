@@ -118,6 +118,31 @@ void MakeFolders(const std::filesystem::path& folder) {
   if (error) throw FileError(folder, error.value());
 }
 
+std::optional<std::string> FindLink(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::recursive_directory_iterator entry(folder, error);
+  for (const std::filesystem::recursive_directory_iterator end; !error && entry != end;
+       entry.increment(error)) {
+    if (!entry->is_symlink(error)) continue;
+    return entry->path().lexically_relative(folder).generic_string();
+  }
+  if (error) throw FileError(folder, error.value());
+  return std::nullopt;
+}
+
+void RefuseLinks(const std::filesystem::path& folder, const std::vector<std::string>& own) {
+  std::error_code error;
+  for (const std::string& name : own) {
+    std::filesystem::path path = (folder / name).lexically_normal();
+    const auto status = std::filesystem::symlink_status(path, error);
+    const auto link = is_directory(status) ? FindLink(path) : std::nullopt;
+    if (link) path /= *link;
+    if (link || is_symlink(status)) {
+      throw InputError(ShownPath(path) + ": must not be a symbolic link");
+    }
+  }
+}
+
 void RefuseStranger(const std::filesystem::path& folder, const std::string& name) {
   throw InputError(ShownPath(folder) + ": holds a file that does not belong to this run (" +
                    ShownPath(name) + "); move it away or choose another --out");
@@ -136,12 +161,18 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
   MakeFolders(folder);
   descriptor_ = FileDescriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!descriptor_.is_open()) throw FileError(folder, errno);
-  if (LockFolder(descriptor_.number())) return;
-  throw InputError(ShownPath(folder) + ": another run is writing here");
+  if (!LockFolder(descriptor_.number())) {
+    throw InputError(ShownPath(folder) + ": another run is writing here");
+  }
+  if (const auto link = FindLink(folder)) {
+    throw InputError(ShownPath(folder) + ": holds a symbolic link, which no run makes (" +
+                     ShownPath(*link) + "); move it away or choose another --out");
+  }
 }
 
 LineFile::LineFile(std::filesystem::path file, std::uint64_t keep_bytes)
     : file_(std::move(file)), size_(keep_bytes) {
+  CheckIsOwnFile(file_);
   std::error_code error;
   if (std::filesystem::hard_link_count(file_, error) > 1 && !error) {
     // The other name, such as that in a shard of a merged data set, keeps its content.
@@ -152,7 +183,8 @@ LineFile::LineFile(std::filesystem::path file, std::uint64_t keep_bytes)
     if (error) throw FileError(file_, error.value());
   }
   constexpr int kAccess = 0644;
-  descriptor_ = FileDescriptor(::open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, kAccess));
+  descriptor_ =
+      FileDescriptor(::open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW, kAccess));
   if (!descriptor_.is_open() || ::ftruncate(descriptor_.number(), static_cast<off_t>(size_)) != 0) {
     throw FileError(file_, errno);
   }

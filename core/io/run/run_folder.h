@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,11 +12,12 @@
 namespace railcast {
 
 /// Makes the folder that a run writes to, if there is none, and keeps other processes of railcast
-/// from writing there while this exists.
+/// from writing there while this exists. The folder itself may be a symbolic link, but nothing in
+/// it: what the link leads to would be written in place of the run's own file.
 class FolderLock {
  public:
-  /// @throws InputError if the folder cannot be made or opened, or "FOLDER: another run is writing
-  ///   here".
+  /// @throws InputError if the folder cannot be made or opened; "FOLDER: another run is writing
+  ///   here"; or "FOLDER: holds a symbolic link, which no run makes (frames/000003.pcd); ...".
   explicit FolderLock(const std::filesystem::path& folder);
 
  private:
@@ -26,7 +28,7 @@ class FolderLock {
 class LineFile {
  public:
   /// Opens or creates the file and truncates it to its first `keep_bytes`.
-  /// @throws InputError if the system refuses.
+  /// @throws InputError as CheckIsOwnFile(), or if the system refuses.
   LineFile(std::filesystem::path file, std::uint64_t keep_bytes);
 
   /// Appends whole lines, or nothing on failure.
@@ -78,6 +80,16 @@ void CheckOutputFiles(std::vector<GivenPath> inputs, const std::vector<GivenPath
 /// Makes a folder and those that it lies in, unless they are there.
 /// @throws InputError if the system refuses.
 void MakeFolders(const std::filesystem::path& folder);
+
+/// Returns the name of a symbolic link in a folder or below it; nothing if there is none.
+/// @throws InputError if a folder cannot be read.
+[[nodiscard]] std::optional<std::string> FindLink(const std::filesystem::path& folder);
+
+/// Checks that what a command writes into a folder, which may hold other things, leads nowhere
+/// else.
+/// @param own Names of its files and folders; those need not exist.
+/// @throws InputError "out/charts: must not be a symbolic link" if one is, or holds one.
+void RefuseLinks(const std::filesystem::path& folder, const std::vector<std::string>& own);
 
 /// Refuses a folder because of a file in it that its run has not written: it could be mistaken for
 /// one of the run's, or be lost when the run cleans up.

@@ -76,7 +76,7 @@ bool WriteScenarios(const Recipe& recipe,
 // As above, in an empty folder, which is empty again if they are not all written.
 int RunScenarios(const Recipe& recipe, const DatasetOptions& options) {
   const ScenarioDrawer drawer(recipe);
-  MakeEmptyFolder(options.choices.directory);
+  const FolderLock lock = LockEmptyFolder(options.choices.directory);
   const auto clear = [&] {
     for (const auto& entry : fs::directory_iterator(options.choices.directory)) {
       fs::remove_all(entry.path());

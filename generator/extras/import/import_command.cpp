@@ -377,7 +377,7 @@ int RunImport(const ImportCommandOptions& options) {
     left_out.remarks.push_back({RemarkKind::kHeightsVoid, "", elevation->num_void(),
                                 NumberText(elevation->first_void_m()) + " m"});
   }
-  MakeEmptyFolder(options.out);
+  const FolderLock lock = LockEmptyFolder(options.out);
   // Before minutes of fitting.
   CheckCanWrite(options.out / "lines.csv");
   work.lines = ImportLines(map, options, work.tracks, left_out.lines);

@@ -140,7 +140,7 @@ std::unique_ptr<HttpServer> AccompanyPackets(const StreamOptions& options,
     CheckIsFor("--calibration", Protocol::kHdl64e, streams);
     // The protocol fits only spinning scans, which was checked when its stream was made.
     const LidarSpec lidar = lidar_of(streams.front());
-    WriteFileWhole(*options.calibration,
+    WriteNamedFile(*options.calibration,
                    CalibrationXml(std::get<SpinningSpec>(lidar.scan.pattern)));
   }
   for (const SensorStreamSpec& stream : streams) {

@@ -146,7 +146,7 @@ int ReportReplay(const LiveResult& result, const ReplayFeed& feed, const ReplayO
   std::cout << ShownLines(LiveSummary(result.records, {feed.delivered()}, kHasTimes));
   if (!feed.LeftOut().empty()) std::cout << "left out: " << ShownLines(feed.LeftOut()) << "\n";
   if (options.summary) {
-    WriteFileWhole(*options.summary,
+    WriteNamedFile(*options.summary,
                    LiveSummaryJson("replay", result, {feed.delivered()}, {}, kHasTimes));
   }
   if (!result.fault) return kExitSuccess;

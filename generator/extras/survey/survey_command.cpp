@@ -136,7 +136,7 @@ std::string WriteWorld(const SurveyCommandOptions& options, const Survey& survey
 }
 
 int RunSurvey(SurveyCommandOptions& options) {
-  MakeEmptyFolder(options.out);
+  const FolderLock lock = LockEmptyFolder(options.out);
   const auto white = GuessWhite(options.source);
   options.source.guessed_white = white.value_or(1.0);
   SurveyLabels labels;

@@ -121,10 +121,25 @@ TEST(EmitReport, ReplacesAFileOfItsNameThatIsNoReport) {
 TEST(ReportFolder, IsCheckedAndNotLeft) {
   const TemporaryFolder folder;
   const auto file = folder.Write("here", "");
-  CheckReportFolder({});
-  CheckReportFolder(file.parent_path() / "out");
+  CheckReportFolder({}, {});
+  CheckReportFolder(file.parent_path() / "out", {});
   EXPECT_FALSE(std::filesystem::exists(file.parent_path() / "out"));
-  EXPECT_EQ(MessageOf([&] { CheckReportFolder(file); }), file.string() + ": not a directory");
+  EXPECT_EQ(MessageOf([&] { CheckReportFolder(file, {}); }), file.string() + ": not a directory");
+}
+
+TEST(ReportFolder, HoldsNoLinksInPlaceOfTheReport) {
+  for (const std::string name :
+       {"report.html", "stats.json", "csv", "charts", "csv/a.csv", "charts/a.svg"}) {
+    const TemporaryFolder folder;
+    const auto out = folder.Write("mine", "mine").parent_path();
+    std::filesystem::create_symlink(out / "mine", out / "of_others");
+    CheckReportFolder(out, {"stats.json"});
+    std::filesystem::create_directories((out / name).parent_path());
+    std::filesystem::create_symlink(out / "nothing", out / name);
+    EXPECT_EQ(MessageOf([&] { CheckReportFolder(out, {"stats.json"}); }),
+              (out / name).string() + ": must not be a symbolic link");
+    EXPECT_FALSE(std::filesystem::exists(out / "nothing"));
+  }
 }
 
 TEST(EmitReport, PrintsAndWritesNoFiles) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "core/io/run/run_folder.h"
+#include "core/io/unfinished_file.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/small_disk.h"
 #include "tests/core/io/temporary_directory.h"
@@ -37,28 +39,48 @@ TEST(WriteFileWhole, ReplacesNothingButARegularFile) {
     return MessageOf([&] { WriteFileWhole(place + file, "x"); });
   };
   EXPECT_EQ(said("a.part"), place + "a.part: must be a regular file (got a FIFO)");
-  EXPECT_EQ(said("link"), place + "link: must be a regular file (got a FIFO)");
+  EXPECT_EQ(said("link"), place + "link: must be a regular file (got a symbolic link)");
   EXPECT_EQ(said("a"), place + "a.part: must be a regular file (got a FIFO)");
   EXPECT_EQ(said("folder"), place + "folder: must be a regular file (got a directory)");
   EXPECT_TRUE(std::filesystem::is_fifo(fifo));
   EXPECT_TRUE(std::filesystem::is_symlink(directory.path() / "link"));
 }
 
-TEST(WriteFileWhole, WritesWhatASymbolicLinkLeadsTo) {
+// Of a link that stands where the file or the unfinished one is written, whether it leads to a file
+// or nowhere yet.
+TEST(WriteFileWhole, FollowsNoLinkAndNeitherDoFilesThatGrow) {
+  for (const std::string target : {"mine", "nothing"}) {
+    for (const std::string name : {"frame", "frame.part"}) {
+      const TemporaryDirectory directory;
+      const auto file = directory.path() / "frame";
+      WriteNamedFile(directory.path() / "mine", "mine");
+      std::filesystem::create_symlink(target, directory.path() / name);
+      const std::string refusal =
+          (directory.path() / name).string() + ": must be a regular file (got a symbolic link)";
+      EXPECT_EQ(MessageOf([&] { WriteFileWhole(file, "x"); }), refusal);
+      EXPECT_EQ(MessageOf([&] { const UnfinishedFile grows(file, 0); }), refusal);
+      EXPECT_EQ(MessageOf([&] { const LineFile lines(file, 0); }), refusal);
+      EXPECT_EQ(ReadFileWhole(directory.path() / "mine"), "mine");
+      EXPECT_FALSE(std::filesystem::exists(directory.path() / "nothing"));
+    }
+  }
+}
+
+TEST(WriteNamedFile, WritesWhatASymbolicLinkLeadsTo) {
   const TemporaryDirectory directory;
   const auto path = [&](const char* name) { return directory.path() / name; };
   std::filesystem::create_directory(path("folder"));
   std::filesystem::create_symlink("folder/file", path("link"));
   std::filesystem::create_symlink(path("link"), path("link_to_link"));
   for (const char* name : {"link", "link_to_link", "folder/file"}) {
-    WriteFileWhole(path(name), name);
+    WriteNamedFile(path(name), name);
     EXPECT_EQ(ReadFileWhole(path("folder/file")), name);
     EXPECT_TRUE(std::filesystem::is_symlink(path("link")));
     EXPECT_TRUE(std::filesystem::is_symlink(path("link_to_link")));
   }
   EXPECT_FALSE(std::filesystem::exists(path("link.part")));
   std::filesystem::create_symlink("circle", path("circle"));
-  EXPECT_EQ(MessageOf([&] { WriteFileWhole(path("circle"), "x"); }),
+  EXPECT_EQ(MessageOf([&] { WriteNamedFile(path("circle"), "x"); }),
             path("circle").string() + ": too many levels of symbolic links");
 }
 

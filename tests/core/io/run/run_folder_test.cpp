@@ -84,6 +84,38 @@ TEST_F(OutputPlaces, AreFollowed) {
   EXPECT_EQ(within, Refusal("frames.jsonl", "stats"));
 }
 
+// A link to a file, to a folder or to nothing yet, wherever it is.
+TEST_F(OutputPlaces, OfRunsHoldNoLinks) {
+  Write("mine/file");
+  fs::create_directory_symlink("run", Path("link"));
+  for (const std::string name : {"run.json", "frames", "frames/000003.pcd", "a/b/c.part"}) {
+    for (const std::string target : {"mine/file", "mine", "nothing"}) {
+      fs::create_directories(Path("run/" + name).parent_path());
+      fs::create_symlink(Path(target), Path("run/" + name));
+      for (const fs::path& out : {Path("run"), Path("link")}) {
+        EXPECT_EQ(MessageOf([&] { const FolderLock lock(out); }),
+                  out.string() + ": holds a symbolic link, which no run makes (" + name +
+                      "); move it away or choose another --out");
+        EXPECT_EQ(MessageOf([&] { RefuseLinks(out, {"."}); }),
+                  (out / name).string() + ": must not be a symbolic link");
+      }
+      fs::remove(Path("run/" + name));
+      EXPECT_EQ(MessageOf([&] { const FolderLock lock(Path("link")); }), "no error");
+    }
+  }
+}
+
+TEST_F(OutputPlaces, OfCommandsMayHoldTheLinksOfOthers) {
+  Write("out/mine/file");
+  fs::create_directory_symlink("mine", Path("out/link"));
+  EXPECT_EQ(MessageOf([&] { RefuseLinks(Path("out"), {"charts", "report.html"}); }), "no error");
+  fs::create_directory_symlink("mine", Path("out/charts"));
+  EXPECT_EQ(MessageOf([&] {
+              RefuseLinks(Path("out"), {"charts", "report.html"});
+            }),
+            Path("out/charts").string() + ": must not be a symbolic link");
+}
+
 TEST_F(OutputPlaces, OfFilesAreNeitherInputsNorEachOther) {
   Write("a.json");
   Write("clouds/0.pcd");

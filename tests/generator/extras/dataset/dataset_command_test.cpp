@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string>
 
+#include "core/io/run/run_folder.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
@@ -68,6 +69,12 @@ TEST_F(DatasetCommand, WritesTheScenariosAlone) {
         Path("scenarios/sequences/000/00000" + std::to_string(i)) / "scenario.resolved.json";
     EXPECT_EQ(Generate("check " + file.string()).status, 0) << file;
   }
+}
+
+TEST_F(DatasetCommand, WritesTheScenariosAloneWhereNoOtherRunDoes) {
+  const FolderLock lock(Path("out"));
+  EXPECT_THAT(Generate(Scenarios("out", "--scenarios-only")),
+              ExitsWith(1, Path("out").string() + ": another run is writing here\n"));
 }
 
 TEST_F(DatasetCommand, ReportsThePartsOfScenariosAlone) {
@@ -240,7 +247,7 @@ TEST_P(DatasetOfBags, IsNotWholeWithAStrangerBesideABag) {
   WriteFileWhole(Path("set/sequences/000/000001/frames.mcap.old"), "x");
   EXPECT_THAT(FaultsOf("set"),
               ElementsAre(Path("set/sequences/000/000001/frames.mcap.old").string() +
-                          ": belongs to no sequence of the scenario"));
+                          ": belongs to none of the run's sensors"));
 }
 
 }  // namespace

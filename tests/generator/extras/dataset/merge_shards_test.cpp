@@ -69,6 +69,11 @@ std::vector<Harm> Harms() {
       {"stranger",
        [=](const fs::path& shard) { WriteFileWhole(shard / sequence / "notes.txt", "mine"); },
        sequence + "notes.txt: is named neither in manifest.json nor in frames.jsonl"},
+      {"link",
+       [=](const fs::path& shard) {
+         fs::create_symlink("000001.pcd", shard / sequence / "frames/000002.pcd");
+       },
+       sequence + "frames/000002.pcd: must not be a symbolic link"},
       {"other scenario",
        [=](const fs::path& shard) {
          fs::remove_all(shard / sequence);

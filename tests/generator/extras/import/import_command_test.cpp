@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/base/text.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/write_file.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/run_command.h"
@@ -61,6 +62,12 @@ TEST_F(Import, WritesAnAlignmentAndTheReports) {
   EXPECT_THAT(Text("contradictions.csv"), HasSubstr("line,s_m,offset_m"));
   EXPECT_THAT(Text("account.csv"),
               ContainsRegex("\nrunning track,\"/features/0/geometry\",m,(2[0-9]+\\.[0-9]+),"));
+}
+
+TEST_F(Import, WaitsForNoOtherRunInItsFolder) {
+  const FolderLock lock(out_);
+  EXPECT_THAT(Run(kMap), ExitsWith(1, out_.string() + ": another run is writing here\n"));
+  EXPECT_TRUE(fs::is_empty(out_));
 }
 
 /// A tram's straights of 600 m about a street corner of 5 m radius, with a point every 10 m.

@@ -12,6 +12,7 @@
 #include "core/base/text.h"
 #include "core/extras/survey/survey_file.h"
 #include "core/io/content_hash.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/verify/verification.h"
 #include "core/io/write_file.h"
 #include "core/scenario/json_text.h"
@@ -53,6 +54,20 @@ TEST(SurveyCommand, TakesACloudInTheWorldsAxes) {
     EXPECT_NEAR(GroundHeight_m(tile, {3'400'001.0, 5'800'001.0}).value(), 412.5, 1e-3);
   }
   EXPECT_FALSE(exists(directory.path() / "out" / "world.json"));
+}
+
+TEST(SurveyCommand, WaitsForNoOtherRunInItsFolder) {
+  const TemporaryDirectory directory;
+  WriteFileWhole(directory.path() / "ground.ply", GroundCloud());
+  const std::string out = (directory.path() / "out").string();
+  const std::string command =
+      "survey " + (directory.path() / "ground.ply").string() + " --world-axes --out " + out;
+  {
+    const FolderLock lock(out);
+    EXPECT_THAT(Generate(command), ExitsWith(1, out + ": another run is writing here\n"));
+    EXPECT_TRUE(is_empty(directory.path() / "out"));
+  }
+  EXPECT_THAT(Generate(command), ExitsWith(0));
 }
 
 // A class of LAS becomes the label that scenarios have for the same thing.
@@ -169,7 +184,7 @@ TEST(SurveyCommand, WritesAWorldOfASensorThatStood) {
                                       "the line begins 60 m before the first frame's place")));
   const Json world = Json::parse(ReadFileWhole(directory.path() / "out" / "world.json"));
   EXPECT_EQ(world.at("survey"), "scene.survey");
-  EXPECT_NEAR(world.at("alignment").at("start").at("position_m").at(2).get<double>(), -2.0, 1e-3);
+  EXPECT_NEAR(world.at("alignment").at("origin_m").at(2).get<double>(), -2.0, 1e-3);
   EXPECT_THAT(MakeSurveyed(directory.path(), "site.json", "made"), ExitsWith(0));
 }
 
