@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/report/report.h"
+#include "core/io/verify/verification.h"
 #include "core/program/program.h"
 
 namespace railcast {
@@ -30,6 +31,11 @@ struct AnalysisExtras {
   /// Looks what the folder of a data set consists of.
   /// @throws InputError with one line if it is unfinished or damaged.
   MeasuredSource (*open_dataset)(const std::filesystem::path& directory) = nullptr;
+
+  /// Compares the files of a study with its manifest.json, and looks for others.
+  /// @throws InputError if its study.json cannot be read.
+  Verification (*verify_study)(const std::filesystem::path& directory,
+                               const std::function<void(double)>& on_progress) = nullptr;
 
   /// All that this build has.
   [[nodiscard]] static const AnalysisExtras& Get();

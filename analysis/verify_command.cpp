@@ -1,13 +1,17 @@
-#include <algorithm>
+#include <functional>
 #include <iomanip>
 #include <iostream>
 #include <memory>
 #include <sstream>
 #include <string>
 
+#include "analysis/analysis_extras.h"
 #include "analysis/commands.h"
+#include "core/base/error.h"
 #include "core/base/join.h"
-#include "core/io/run/sensors_record.h"
+#include "core/base/text.h"
+#include "core/io/run/folder_kind.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/verify/verification.h"
 #include "core/program/progress_line.h"
 
@@ -24,34 +28,26 @@ std::string SummaryOf(const Verification& found) {
   return text.str();
 }
 
-template <typename Verify>
-int Report(const std::filesystem::path& directory, const Verify& verify) {
-  const ProgressLine progress;
-  const Verification found = verify([&](double share) { progress.Show("frames", share); });
-  progress.End();
-  for (const std::string& fault : found.faults) std::cout << ShownLines(fault) << "\n";
-  std::cout << ShownPath(directory) << ": " << SummaryOf(found) << "\n" << std::flush;
-  return found.faults.empty() ? kExitSuccess : kExitFailure;
+/// Files of a study are the extra's.
+Verification Verify(const std::filesystem::path& directory,
+                    const std::function<void(double)>& on_progress) {
+  const FolderKind* const kind = FindFolderKind(directory);
+  if (kind == nullptr || kind->file != kStudyFile) return VerifyFolder(directory, on_progress);
+  const auto verify = AnalysisExtras::Get().verify_study;
+  if (verify == nullptr) throw LacksExtra(ShownPath(directory / kind->file), "study");
+  return verify(directory, on_progress);
 }
 
 int RunVerify(const std::filesystem::path& directory) {
-  return Report(directory, [&](const auto& show) {
-    if (IsSurvey(directory)) return VerifySurvey(directory);
-    return VerifyFolder(directory, show);
-  });
-}
-
-// A directory of several sensors is as good as its worst sequence.
-int RunVerifyAll(const std::filesystem::path& directory) {
-  const std::vector<std::filesystem::path> folders = SensorFoldersIn(directory);
-  if (folders.empty()) return RunVerify(directory);
-  int exit = kExitSuccess;
-  for (const std::filesystem::path& folder : folders) exit = std::max(exit, RunVerify(folder));
-  if (const auto merged = MergedFolderIn(directory)) {
-    exit = std::max(exit, Report(merged->folder,
-                                 [&](const auto& show) { return VerifyMerged(*merged, show); }));
-  }
-  return exit;
+  RefuseLinks(directory, {"."});
+  const ProgressLine progress;
+  const Verification found =
+      Verify(directory, [&](double share) { progress.Show("frames", share); });
+  progress.End();
+  for (const std::string& fault : found.faults) std::cout << ShownLines(fault) << "\n";
+  for (const std::string& what : found.unchecked) std::cout << ShownLines(what) << "\n";
+  std::cout << ShownPath(directory) << ": " << SummaryOf(found) << "\n" << std::flush;
+  return found.faults.empty() ? kExitSuccess : kExitFailure;
 }
 
 }  // namespace
@@ -59,17 +55,17 @@ int RunVerifyAll(const std::filesystem::path& directory) {
 void AddVerify(ProgramOptions& app, ProgramCommand& command) {
   const auto directory = std::make_shared<std::filesystem::path>();
   ProgramOptions verify = app.AddCommand("verify",
-                                         "Check that a sequence directory, a data set, a survey or "
-                                         "a recording with insertions is as it "
-                                         "was written: one line per fault");
+                                         "Check that a sequence, a data set, a study, a survey, or "
+                                         "a recording that was converted or into which something "
+                                         "was put, is as it was written: one line per fault");
   verify
-      .AddOption(
-          "DIR", *directory,
-          "Directory that railcast-generate sequence, dataset, survey or insert made, any --format")
+      .AddOption("DIR", *directory,
+                 "Folder that railcast-generate sequence, dataset, merge, survey, insert or "
+                 "convert or railcast-analyze study made, any --format")
       .Required()
       .Check(NonEmpty());
   verify.WhenParsed([&command, directory] {
-    command = [directory](const std::string&) { return RunVerifyAll(*directory); };
+    command = [directory](const std::string&) { return RunVerify(*directory); };
   });
 }
 

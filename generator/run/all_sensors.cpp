@@ -8,7 +8,6 @@
 #include <limits>
 #include <mutex>
 #include <ranges>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -24,6 +23,7 @@
 #include "core/io/record/record_text.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/run/frame_record.h"
+#include "core/io/run/run_record.h"
 #include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
@@ -221,9 +221,9 @@ class MergedWriter {
   std::size_t num_done_ = 0;
 };
 
-// What sensors.json says: where each sensor is by its nominal mount, and the hashes of the merged
-// files.
-SensorsRecord SensorsRecordOf(const RunPlan& plan) {
+// What sensors.json says: where each sensor is by its nominal mount, and the hashes of the
+// manifests and of the merged files.
+SensorsRecord SensorsRecordOf(const RunPlan& plan, bool is_merged) {
   SensorsRecord record;
   for (const auto& [name, scenario, spec] : plan.sensors) {
     const Transform vehicle_from_sensor = VehicleFromSensor(scenario.lidar.mount);
@@ -235,9 +235,10 @@ SensorsRecord SensorsRecordOf(const RunPlan& plan) {
                               .num_frames = spec.num_frames,
                               .stride = spec.stride,
                               .vehicle_from_sensor = {vehicle_from_sensor.translation(),
-                                                      CanonicalRotation(vehicle_from_sensor)}});
+                                                      CanonicalRotation(vehicle_from_sensor)},
+                              .manifest_hash = HashFile(spec.directory / kManifestFile).hash});
   }
-  if (!plan.is_merged) return record;
+  if (!is_merged) return record;
   MergedFolderRecord& merged = record.merged.emplace();
   merged.folder = kMergedFolder;
   for (const std::string_view file : {kMergedFile, kPosesFile}) {
@@ -255,9 +256,10 @@ bool IsMerged(const fs::path& directory) {
     for (const KnownFile& file : merged->files) {
       if (HashFile(merged->folder / file.name).hash != file.hash) return false;
     }
-    std::istringstream lines(ReadFileWhole(merged->folder / kMergedFile));
-    for (std::string line; std::getline(lines, line);) {
-      if (!HasContent(merged->folder, ReadRecordLine<MergedRecord>(line, "").file)) return false;
+    LineReader lines(merged->folder / kMergedFile);
+    while (const auto line = lines.Next()) {
+      const auto record = ReadRecordLine<MergedRecord>(line->text, line->place);
+      if (!HasContent(merged->folder, record.file)) return false;
     }
     return true;
   } catch (const InputError&) {
@@ -336,18 +338,32 @@ void CheckCanMerge(const FrameMaker& maker, const RunPlan& plan) {
   }
 }
 
+std::optional<std::string> FaultOfList(const RunPlan& plan) {
+  const fs::path file = plan.directory / kSensorsFile;
+  if (!plan.is_in_folders() || !fs::exists(file)) return std::nullopt;
+  const std::string text = ReadFileWhole(file);
+  if (text == WithoutManifestHash(text)) return std::nullopt;
+  ErrorList faults;
+  if (Attempt("", faults, [&] { return CheckManifestHash(text, ShownPath(file)), true; })) {
+    return std::nullopt;
+  }
+  return faults.lines().front();
+}
+
 bool FinishRun(const FrameMaker& maker,
                const RunPlan& plan,
                const std::function<void(double)>& on_progress,
                const std::function<bool()>& is_stopped) {
   if (!plan.is_in_folders()) return true;
-  if (plan.is_merged && !IsMerged(plan.directory)) {
+  // What was merged before stays so.
+  const bool is_merged = plan.is_merged || fs::exists(plan.directory / kMergedFolder / kMergedFile);
+  if (is_merged && !IsMerged(plan.directory)) {
     MergedWriter writer(plan.directory, MergedSensorsOf(maker, plan));
     bool is_complete = false;
     maker.simulator(0).Execute([&] { is_complete = writer.Write(on_progress, is_stopped); });
     if (!is_complete) return false;
   }
-  WriteFileWhole(plan.directory / kSensorsFile, RecordFile(SensorsRecordOf(plan)));
+  WriteFileWhole(plan.directory / kSensorsFile, SensorsText(SensorsRecordOf(plan, is_merged)));
   RemoveUnfinished(plan.directory);
   return true;
 }

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "generator/run/frame_maker.h"
@@ -37,6 +39,10 @@ struct MergedFrame {
 /// Checks, before anything is made, that the clouds of the sensors can be merged.
 /// @throws InputError "--merged: must ...".
 void CheckCanMerge(const FrameMaker& maker, const RunPlan& plan);
+
+/// What is wrong with the sensors.json of a run that was complete, by its own hash; nothing if that
+/// is right, or if there is none.
+[[nodiscard]] std::optional<std::string> FaultOfList(const RunPlan& plan);
 
 /// Makes of complete sequences what is about all of them: of several sensors sensors.json, which
 /// says where each is, and before it, if they are to be merged, the folder `merged` with the

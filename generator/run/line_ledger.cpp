@@ -1,9 +1,11 @@
 #include "generator/run/line_ledger.h"
 
 #include <algorithm>
+#include <fstream>
 #include <system_error>
 
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 #include "core/io/content_hash.h"
 #include "core/io/write_file.h"
 
@@ -12,33 +14,42 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The whole lines of a file, one after the other.
+/// The whole lines of a file, one after the other: millions need not fit into memory.
 class Lines {
  public:
   Lines(const fs::path& file, std::string_view header) {
-    if (fs::exists(file)) text_ = ReadFileWhole(file);
-    has_header_ = std::string_view(text_).starts_with(header);
+    if (!fs::exists(file)) return;
+    stream_ = OpenInput(file);
+    std::string begin(header.size(), '\0');
+    stream_.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    has_header_ = stream_ && begin == header;
     if (has_header_) position_ = header.size();
   }
 
   /// The next lines with their ends; empty if there are fewer or the last is incomplete.
-  [[nodiscard]] std::string_view Next(std::uint32_t num_lines) const {
-    if (!has_header_) return {};
-    std::size_t end = position_;
+  [[nodiscard]] std::string_view Next(std::uint32_t num_lines) {
+    next_.clear();
     for (std::uint32_t i = 0; i < num_lines; ++i) {
-      end = text_.find('\n', end);
-      if (end == std::string::npos) return {};
-      ++end;
+      if (!has_header_ || !std::getline(stream_, line_) || stream_.eof()) {
+        next_.clear();
+        break;
+      }
+      next_ += line_;
+      next_ += '\n';
     }
-    return std::string_view(text_).substr(position_, end - position_);
+    return next_;
   }
-  void Advance(std::uint32_t num_lines) { position_ += Next(num_lines).size(); }
+  /// Counts what Next() has returned.
+  void Count() { position_ += next_.size(); }
+  /// The size of what was counted.
   [[nodiscard]] std::uint64_t position() const { return position_; }
 
  private:
-  std::string text_;
+  std::ifstream stream_;
   bool has_header_ = false;
-  std::size_t position_ = 0;
+  std::string line_;
+  std::string next_;
+  std::uint64_t position_ = 0;
 };
 
 }  // namespace
@@ -49,26 +60,21 @@ std::uint32_t LineLedger::Count(
     const std::function<void(std::string_view records)>& on_done) {
   std::vector<Lines> lines;
   for (const LineFileName& file : files_) lines.emplace_back(directory_ / file.name, file.header);
-  const auto note_sizes = [&] {
-    std::vector<std::uint64_t>& sizes = sizes_.emplace_back();
-    for (const Lines& file : lines) sizes.push_back(file.position());
-  };
-  sizes_.clear();
-  note_sizes();
   std::uint32_t num = 0;
+  std::string records;
   for (; num < most; ++num) {
     const std::optional<LedgerItem> item = read(num, lines.back().Next(1));
     if (!item || item->num_lines.size() + 1 != files_.size()) break;
-    std::string records;
+    records.clear();
     for (std::size_t i = 0; i + 1 < lines.size(); ++i) records += lines[i].Next(item->num_lines[i]);
     const auto is_there = [&](const KnownFile& file) { return HasContent(directory_, file); };
     if (ContentHash(records) != item->records_hash) break;
     if (!std::ranges::all_of(item->files, is_there)) break;
     on_done(records);
-    for (std::size_t i = 0; i + 1 < lines.size(); ++i) lines[i].Advance(item->num_lines[i]);
-    lines.back().Advance(1);
-    note_sizes();
+    for (Lines& file : lines) file.Count();
   }
+  sizes_.clear();
+  for (const Lines& file : lines) sizes_.push_back(file.position());
   return num;
 }
 
@@ -76,16 +82,16 @@ std::string LineLedger::FileWithOthers() const {
   for (std::size_t i = 0; i < files_.size(); ++i) {
     std::error_code error;
     const std::uintmax_t size = fs::file_size(directory_ / files_[i].name, error);
-    if (error || size != sizes_.back()[i]) return files_[i].name;
+    if (error || size != sizes_[i]) return files_[i].name;
   }
   return "";
 }
 
-void LineLedger::Open(std::uint32_t num_kept) {
-  Check(num_kept < sizes_.size(), "only items that are there are kept");
+void LineLedger::Open() {
+  Check(sizes_.size() == files_.size(), "items are counted before lines are added");
   for (std::size_t i = 0; i < files_.size(); ++i) {
     const fs::path file = directory_ / files_[i].name;
-    const std::uint64_t size = sizes_[num_kept][i];
+    const std::uint64_t size = sizes_[i];
     MakeFolders(file.parent_path());
     open_.emplace_back(file, size);
     if (size == 0) open_.back().Append(files_[i].header);

@@ -48,9 +48,9 @@ class LineLedger {
   /// none.
   [[nodiscard]] std::string FileWithOthers() const;
 
-  /// Drops all lines but those of the first items of those counted.
+  /// Drops all lines but those of the items that were counted last.
   /// @throws InputError if the system refuses.
-  void Open(std::uint32_t num_kept);
+  void Open();
   /// Adds an item's lines; its own comes last and makes it count as done.
   /// @param own Returns its own line, given the hash of the others.
   void Append(const std::vector<std::string>& records,
@@ -63,7 +63,7 @@ class LineLedger {
  private:
   std::filesystem::path directory_;
   std::vector<LineFileName> files_;
-  std::vector<std::vector<std::uint64_t>> sizes_;  ///< Of the files, before and after each item.
+  std::vector<std::uint64_t> sizes_;  ///< Of the files, up to the items that were counted.
   std::vector<LineFile> open_;
 };
 

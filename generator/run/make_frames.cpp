@@ -13,6 +13,8 @@
 #include "core/base/text.h"
 #include "core/fidelity/choice_report.h"
 #include "core/io/run/run_folder.h"
+#include "core/io/run/sensors_record.h"
+#include "core/io/unfinished_file.h"
 #include "core/program/stop_signals.h"
 #include "generator/run/all_sensors.h"
 #include "generator/run/run_directory.h"
@@ -191,11 +193,15 @@ std::vector<SequenceUnderWay> OpenSequences(const std::vector<SensorSequence>& s
 /// Makes the missing frames of several sequences, in the order in which they begin.
 /// @return The results in the order of the sequences.
 /// @param bag Of all frames; null = none.
-std::vector<SequenceResult> RunSequences(const std::vector<SensorSequence>& sensors,
-                                         RunOutput* bag,
-                                         const SequenceHooks& hooks,
-                                         const FramesAtOnce& at_once) {
+/// @param on_open Called once the folders are known to be this run's.
+std::vector<SequenceResult> RunSequences(
+    const std::vector<SensorSequence>& sensors,
+    RunOutput* bag,
+    const SequenceHooks& hooks,
+    const FramesAtOnce& at_once,
+    const std::function<void()>& on_open = [] {}) {
   std::vector<SequenceUnderWay> sequences = OpenSequences(sensors, bag);
+  on_open();
   const auto begin = std::chrono::steady_clock::now();
   if (!std::ranges::all_of(sequences, [](const auto& each) { return each.result.was_complete; })) {
     MakeMissing(sequences, bag, hooks, at_once);
@@ -337,7 +343,14 @@ PlanResult MakeFrames(FrameMaker& maker, const RunPlan& plan, const SequenceHook
   const bool has_bag = !plan.sensors.front().spec.bag.empty();
   const auto bag = has_bag ? RunExtras::Get().find_bag(maker, plan) : nullptr;
   PlanResult result;
-  result.sequences = RunSequences(sequences, bag.get(), hooks, at_once);
+  const auto begin_list = [&] {
+    const std::filesystem::path file = plan.directory / kSensorsFile;
+    if (plan.is_in_folders() && !exists(file)) UnfinishedFile(file, 0).Sync();
+  };
+  result.sequences = RunSequences(sequences, bag.get(), hooks, at_once, begin_list);
+  if (const auto fault = FaultOfList(plan)) {
+    result.sequences.front().changed.push_back(*fault);
+  }
   hooks.on_frames(result.sequences);
   if (!std::ranges::all_of(result.sequences, &SequenceResult::is_complete)) return result;
   if (bag && !bag->is_complete()) FinishBag(maker, plan, *bag);

@@ -139,28 +139,28 @@ RunDirectory::RunDirectory(SequenceSpec spec, std::uint32_t most_done)
   WriteFixedFiles();
   CountFrames();
   if (trace_) OpenTrace();
-  lines_.Open(num_done_);
+  lines_.Open();
 }
 
 void RunDirectory::CheckNames(bool is_run) const {
   const OwnNames own(spec_, FixedFiles());
-  NameSet names;
-  ForEachFileBelow(spec_.directory, spec_.directory, {},
-                   [&](const std::string& name) { names.insert(name); });
+  std::string stranger;
   std::vector<fs::path> unfinished;
-  for (const std::string& name : names) {
+  ForEachFileBelow(spec_.directory, spec_.directory, {}, [&](const std::string& name) {
     const std::optional<std::string_view> finished = FinishedName(name);
     // A run that was stopped before its first file was complete leaves an unfinished run.json.
     const bool is_own = is_run ? own.Have(name) || (finished && own.Have(*finished))
                                : finished == std::string_view(kRunFile);
-    if (!is_own) RefuseStranger(spec_.directory, name);
+    // Of several, the first by its name is told, in whatever order the system has them.
+    if (!is_own && (stranger.empty() || name < stranger)) stranger = name;
     // A mesh may have a name that ends so, too.
-    if (!finished || own.Have(name)) continue;
+    if (!finished || own.Have(name)) return;
     // An unfinished bag or trace is gone on with.
     const bool is_kept = IsOfBag(*finished) || *finished == spec_.trace;
-    if (is_kept && !fs::exists(spec_.directory / *finished)) continue;
+    if (is_kept && !fs::exists(spec_.directory / *finished)) return;
     unfinished.push_back(spec_.directory / name);
-  }
+  });
+  if (!stranger.empty()) RefuseStranger(spec_.directory, stranger);
   for (const fs::path& file : unfinished) fs::remove(file);
 }
 

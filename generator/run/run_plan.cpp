@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <set>
 #include <utility>
 
 #include "core/base/error.h"
@@ -13,6 +12,7 @@
 #include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/unfinished_file.h"
+#include "core/io/verify/known_names.h"
 #include "core/io/write_file.h"
 #include "core/program/version.h"
 #include "core/scenario/track_limits.h"
@@ -214,7 +214,7 @@ void RefuseOtherFiles(const RunPlan& plan) {
   if (!plan.is_merged) return;
   // A merged cloud has the name of the first sensor's frame.
   const SequenceSpec& first = plan.sensors.front().spec;
-  std::set<std::string> clouds;
+  KnownNames clouds;
   for (std::uint32_t i = 0; i < first.num_frames; ++i) {
     clouds.insert(FrameFileNames(*first.files.format, first.FrameAt(i)).front());
   }

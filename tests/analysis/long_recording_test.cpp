@@ -1,9 +1,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <cstdlib>
 #include <filesystem>
+#include <iostream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
+#include <utility>
 
 #include "core/io/write_file.h"
 #include "tests/analysis/analyze_program.h"
@@ -48,10 +53,17 @@ class LongRecording : public testing::Test {
   static std::string Made(const std::string& format) {
     const std::filesystem::path run = here_ / format;
     if (exists(run)) return run.string();
-    const Ended made = RunCommand(RAILCAST_GENERATE " sequence " + scenario_.string() + " --out " +
-                                  run.string() + " --frames 2001 --format " + format);
+    const Ended made = RunCommand(MakingOf(run, format, 2001));
     EXPECT_EQ(made.status, 0) << made.said;
     return run.string();
+  }
+  /// The command that makes a recording, or finds that it is complete.
+  static std::string MakingOf(const std::filesystem::path& run,
+                              const std::string& format,
+                              std::uint32_t num_frames,
+                              const std::filesystem::path& scenario = scenario_) {
+    return RAILCAST_GENERATE " sequence " + scenario.string() + " --out " + run.string() +
+           " --frames " + std::to_string(num_frames) + " --format " + format;
   }
 
   static void ExpectDone(const std::string& command, const std::string& num_frames = "2001") {
@@ -87,6 +99,56 @@ TEST_F(LongRecording, IsReadInEveryForm) {
   }
   // Of 2,001 turns the last would not fill a packet, which is not sent.
   ExpectDone("stats " + capture.string() + " --format text", "2002");
+}
+
+/// What a command takes.
+struct Effort {
+  double memory_kb{};  ///< At most.
+  double cpu_s{};
+};
+
+Effort EffortOf(const std::string& command) {
+  const Ended run = RunCommand(
+      "/usr/bin/python3 -c 'import resource, subprocess, sys\n"
+      "subprocess.run(sys.argv[1:], check=True, stdout=subprocess.DEVNULL)\n"
+      "used = resource.getrusage(resource.RUSAGE_CHILDREN)\n"
+      "print(used.ru_maxrss, used.ru_utime + used.ru_stime)' " +
+      command);
+  EXPECT_EQ(run.status, 0) << command << ": " << run.said;
+  Effort effort;
+  std::istringstream(run.said) >> effort.memory_kb >> effort.cpu_s;
+  return effort;
+}
+
+// A line of frames.jsonl has more than 800 bytes, so that of 10,000 frames more than 8 MB would be
+// kept if their lines were; an eighth of that allows for what the system gives in advance.
+// RAILCAST_LONG_RUN is the number of frames of a longer run, with a cloud of each.
+TEST_F(LongRecording, TakesNoMoreMemoryForMoreFrames) {
+  constexpr std::uint32_t kFewFrames = 2000;
+  constexpr double kLeastOfAFrame_kb = 0.1;
+  const char* const wanted = std::getenv("RAILCAST_LONG_RUN");
+  const std::uint32_t num_frames =
+      wanted == nullptr ? 6 * kFewFrames : static_cast<std::uint32_t>(std::stoul(wanted));
+  const std::string format = wanted == nullptr ? "objects" : "pcd";
+  const std::filesystem::path few = here_ / "few", many = here_ / "many";
+  PlainJson standing = PlainJson::parse(ReadFileWhole(scenario_));
+  standing["vehicle"].erase("motion");
+  const std::filesystem::path scenario = folder_->Write("standing.json", standing.dump());
+  const std::string making_few = MakingOf(few, format, kFewFrames, scenario);
+  const std::string making_many = MakingOf(many, format, num_frames, scenario);
+  ASSERT_EQ(RunCommand(making_few).status, 0);
+  ASSERT_EQ(RunCommand(making_many).status, 0);
+  const std::string verifying = RAILCAST_ANALYZE " verify ";
+  for (const auto& [of_few, of_many] :
+       {std::pair(making_few, making_many),
+        std::pair(verifying + few.string(), verifying + many.string())}) {
+    const Effort least = EffortOf(of_few), most = EffortOf(of_many);
+    EXPECT_LT(most.memory_kb - least.memory_kb, kLeastOfAFrame_kb * (num_frames - kFewFrames))
+        << of_many;
+    if (wanted == nullptr) continue;
+    std::cout << of_many << ": " << most.memory_kb << " kB for " << least.memory_kb << ", "
+              << most.cpu_s << " s for " << least.cpu_s << "\n";
+  }
 }
 
 }  // namespace

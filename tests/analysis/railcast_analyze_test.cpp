@@ -251,11 +251,28 @@ TEST(VerifyCommand, KnowsTheImagesOfACamera) {
   }
 }
 
+// Whatever is in the folder, and also where the link leads to what was there.
+TEST(VerifyCommand, RefusesLinks) {
+  const TemporaryDirectory directory;
+  const auto out = directory.path() / "out";
+  std::filesystem::create_directories(out / "worst/000003");
+  WriteFileWhole(out / "study.json", "{}");
+  std::filesystem::create_symlink("../../study.json", out / "worst/000003/a.json");
+  EXPECT_THAT(Analyze("verify " + out.string()),
+              ExitsWith(1, out.string() + "/worst/000003/a.json: must not be a symbolic link\n"));
+}
+
 TEST(VerifyCommand, WantsADirectoryOfASequence) {
   EXPECT_EQ(Analyze("verify").status, 2);
   const TemporaryDirectory directory;
-  EXPECT_THAT(Analyze("verify " + directory.path().string()),
-              ExitsWith(1, directory.path().string() + "/run.json: no such file or directory\n"));
+  const std::string folder = directory.path().string();
+  EXPECT_THAT(Analyze("verify " + folder),
+              ExitsWith(1, folder + ": must be a folder that railcast wrote (got another)\n"));
+  WriteFileWhole(directory.path() / "a.pcd", "");
+  EXPECT_THAT(Analyze("verify " + folder + "/a.pcd"),
+              ExitsWith(1, folder + "/a.pcd: must be a folder that railcast wrote (got a file)\n"));
+  EXPECT_THAT(Analyze("verify " + folder + "/b"),
+              ExitsWith(1, folder + "/b/run.json: no such file or directory\n"));
 }
 
 }  // namespace

@@ -44,17 +44,17 @@ FinishedStudy ReadFinishedStudy(const fs::path& directory) {
   CheckIsWhole(directory, study.result.identity);
   const std::uint32_t num_approaches = study.result.identity.num_scenarios;
   study.result.num_approaches = num_approaches;
-  study.result.approaches = ReadApproaches(directory);
-  const std::size_t num_done = study.result.approaches.size();
   // The manifest is written last.
   const bool has_manifest = fs::exists(directory / kManifestFile);
+  if (has_manifest) study.sample = CheckKeptFiles(directory);
+  study.result.approaches = ReadApproaches(directory);
+  const std::size_t num_done = study.result.approaches.size();
   if (num_done < num_approaches || !has_manifest) {
     throw InputError(ShownPath(directory) + ": must be a finished study (got " +
                      std::to_string(num_done) + " of " + std::to_string(num_approaches) +
                      " approaches" + (has_manifest ? "" : " and no manifest.json") +
                      "); the command that began it, railcast-analyze study, continues it");
   }
-  study.sample = CheckKeptFiles(directory);
   study.spec = ReadStudy(directory / kAskedFile);
   study.recipe = ReadRecordedJson(ReadFileWhole(directory / kAskedRecipeFile),
                                   ShownPath(directory / kAskedRecipeFile));

@@ -11,10 +11,12 @@
 #include "analysis/extras/study/kept_files.h"
 #include "analysis/extras/study/rare_study.h"
 #include "analysis/extras/study/run_study.h"
+#include "analysis/extras/study/study_directory.h"
 #include "analysis/extras/study/study_report.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "core/base/input_file.h"
+#include "core/base/text.h"
 #include "core/certify/certifier.h"
 #include "core/extras/recipe/scenario_draw.h"
 #include "core/extras/recipe/shard.h"
@@ -36,6 +38,7 @@ struct StudyOptions {
   std::string certify = "1%";
   bool has_certify = false;
   bool is_rare = false;
+  std::optional<double> unseen;
   ReportOutput output;
 };
 
@@ -107,6 +110,16 @@ int RunRareCommand(const StudyOptions& options,
   return kExitSuccess;
 }
 
+void GiveUnseen(double unseen, StudySpec& study) {
+  if (!study.rare) throw InputError("--unseen: must be with --rare");
+  const double least = LeastUnseen(*study.rare);
+  if (unseen < least || unseen > kMostUnseen) {
+    throw InputError("--unseen: must be from " + NumberText(least) + " to " +
+                     NumberText(kMostUnseen) + Got(unseen));
+  }
+  study.rare->unseen = unseen;
+}
+
 int RunStudyCommand(StudyOptions options, const std::string& command_line) {
   if (options.output.out.empty()) {
     throw InputError("--out: missing: the folder of the study, in which it can be continued");
@@ -119,6 +132,7 @@ int RunStudyCommand(StudyOptions options, const std::string& command_line) {
   StudySpec study = ReadStudy(options.study);
   study.table = options.table;
   if (options.is_rare && !study.rare) study.rare.emplace();
+  if (options.unseen) GiveUnseen(*options.unseen, study);
   const Recipe recipe = ReadStudyRecipe(study);
   const ScenarioDrawer drawer(recipe);
   CatchStopSignals();
@@ -180,6 +194,10 @@ void AddStudy(ProgramOptions& app, ProgramCommand& command) {
       .ShowDefault();
   study.AddFlag("--rare", options->is_rare,
                 "Estimate how often something in the way is not detected in time, however rare");
+  study.AddOption(
+      "--unseen", options->unseen,
+      "With --rare: how rare a kind of failure may be, such as 1e-3, that is met although "
+      "no search leads to it");
   AddThreads(study, options->choices.num_threads);
   AddIsa(study, options->choices.isa);
   study.WhenParsed([&command, options, study] {
@@ -193,6 +211,7 @@ void AddStudy(ProgramOptions& app, ProgramCommand& command) {
 
 void AddStudy(AnalysisExtras& extras) {
   extras.commands["study"] = AddStudy;
+  extras.verify_study = VerifyStudy;
 }
 
 }  // namespace railcast

@@ -44,6 +44,7 @@ void Describe(Archive& a, StudyRecord& s) {
 }
 
 StudyRecord ReadStudyRecord(const std::filesystem::path& directory) {
+  CheckFolderKind(directory, kStudyFile);
   const std::filesystem::path file = directory / kStudyFile;
   return ReadRecord<StudyRecord>(ReadFileWhole(file), ShownPath(file));
 }
@@ -73,10 +74,9 @@ std::string StudyDifference(const std::string& key, const Json& found, const Jso
 
 // Refuses what a study and its report have not written, and removes what they have left unfinished.
 void RefuseStrangers(const fs::path& directory) {
-  const std::regex own(
-      R"((study|manifest|report)\.json|approaches\.jsonl|report\.html|inputs/(study|recipe)\.json|)"
-      R"((worst|sample)/\d+/(scenario\.resolved\.json|inputs/.+)|csv/[^/]+\.csv|)"
-      R"(charts/[^/]+\.(svg|png))");
+  const std::regex own(R"((study|manifest)\.json|approaches\.jsonl|inputs/(study|recipe)\.json|)"
+                       R"((worst|sample)/\d+/(scenario\.resolved\.json|inputs/.+)|)" +
+                       std::string(kFilesOfReport));
   std::vector<fs::path> unfinished;
   ForEachFileBelow(directory, directory, {}, [&](const std::string& name) {
     if (std::regex_match(name, own)) return;
@@ -100,7 +100,10 @@ StudyDirectory::StudyDirectory(fs::path directory, StudyRecord identity, const S
   if (!is_new) RefuseStrangers(directory_);
   ScenarioLines lines(directory_ / kApproachesFile, shard_);
   // How many approaches rare failures take, only their run tells.
-  num_done_ = ours.rare.empty() ? lines.Skip(shard.NumOf(ours.num_scenarios)) : lines.Skip();
+  const std::uint32_t num_own = shard.NumOf(ours.num_scenarios);
+  num_done_ = ours.rare.empty() ? lines.Skip(num_own) : lines.Skip();
+  // A study whose lines are to be made anew is unfinished.
+  if (ours.rare.empty() && num_done_ < num_own) fs::remove(directory_ / kManifestFile);
   lines_.emplace(directory_ / kApproachesFile, lines.size());
 }
 
@@ -125,6 +128,7 @@ std::vector<ApproachRecord> ReadApproaches(const fs::path& directory) {
   while (const auto line = lines.Next()) {
     records.push_back(ReadRecordLine<ApproachRecord>(line->text, line->place));
   }
+  if (!lines.fault().empty()) throw InputError(lines.fault());
   return records;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,14 +10,16 @@
 
 #include "analysis/extras/study/approach_record.h"
 #include "core/extras/recipe/shard.h"
+#include "core/io/run/folder_kind.h"
 #include "core/io/run/run_folder.h"
+#include "core/io/verify/verification.h"
 #include "core/scenario/value_type.h"
 
 namespace railcast {
 
-// The files of a study (docs/study.md), relative to its folder.
-inline constexpr std::string_view kStudyFile = "study.json";
-inline constexpr std::string_view kApproachesFile = "approaches.jsonl";
+/// The names of what its report writes into a study's folder.
+inline constexpr const char* kFilesOfReport =
+    R"(report\.(json|html)|csv/[^/]+\.csv|charts/[^/]+\.(svg|png))";
 
 /// Which frames of each approach are made.
 struct StudyFramesRecord {
@@ -82,9 +85,14 @@ class StudyDirectory {
   std::uint32_t num_done_ = 0;
 };
 
-/// Reads the approaches of a folder that no process writes to, up to the first damaged line.
-/// @throws InputError if the file cannot be read.
+/// Reads the approaches of a folder that no process writes to.
+/// @throws InputError if the file cannot be read, or "approaches.jsonl:3: rule" if a line is not as
+///   it was written.
 [[nodiscard]] std::vector<ApproachRecord> ReadApproaches(const std::filesystem::path& directory);
+
+/// As AnalysisExtras::verify_study.
+[[nodiscard]] Verification VerifyStudy(const std::filesystem::path& directory,
+                                       const std::function<void(double)>& on_progress);
 
 /// Puts the approaches of all shards of a study into one folder.
 /// @param identity As of StudyDirectory.

@@ -1,6 +1,5 @@
 #include "core/extras/insert/insertion_verification.h"
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -47,12 +46,8 @@ class InsertionVerifier : private Findings {
     Try([&] { CheckFrames(); });
     const fs::path recording = directory_ / kRecordingFolder;
     // A sequence names its files itself.
-    const bool is_sequence =
-        ledger_ == kInsertFile &&
-        (IsThere(recording / kRunFile) ||
-         (has_manifest && std::ranges::none_of(known_, [](const std::string& name) {
-            return name.starts_with(std::string(kRecordingFolder) + "/");
-          })));
+    const bool is_sequence = ledger_ == kInsertFile &&
+                             (IsThere(recording / kRunFile) || (has_manifest && !names_recording_));
     if (is_sequence) {
       Try([&] {
         Verification found = VerifySequence(recording, [](double) {});
@@ -69,9 +64,7 @@ class InsertionVerifier : private Findings {
  private:
   void CheckManifest() {
     const fs::path file = directory_ / kManifestFile;
-    known_.emplace(kManifestFile);
-    known_.emplace(kRunFile);
-    known_.emplace(ledger_);
+    known_.insert({std::string(kManifestFile), std::string(kRunFile), std::string(ledger_)});
     if (!IsThere(file)) {
       throw InputError({Fault{ShownPath(file), "missing: the run is unfinished", ""}});
     }
@@ -88,6 +81,11 @@ class InsertionVerifier : private Findings {
     num_frames_ = manifest.run.num_frames;
     first_frame_ = manifest.run.first_frame;
     CheckHashes(directory_, manifest.files, kManifestFile);
+    for (const auto& [name, hash] : manifest.files) NoteRecording(name);
+  }
+
+  void NoteRecording(const std::string& name) {
+    names_recording_ = names_recording_ || name.starts_with(std::string(kRecordingFolder) + "/");
   }
 
   void CheckFrames() {
@@ -100,6 +98,7 @@ class InsertionVerifier : private Findings {
       Try([&] {
         for (const KnownFile& file : FilesOfLine(ledger_, *line, first_frame_ + num)) {
           known_.insert(file.name);
+          NoteRecording(file.name);
           CheckHash(directory_ / file.name, file.hash, std::string(ledger_));
         }
       });
@@ -113,7 +112,8 @@ class InsertionVerifier : private Findings {
 
   const fs::path& directory_;
   const std::function<void(double)>& on_progress_;
-  std::string_view ledger_;  ///< The file with a line for each frame.
+  std::string_view ledger_;       ///< The file with a line for each frame.
+  bool names_recording_ = false;  ///< Whether files of the recording are named.
   std::uint32_t first_frame_ = 0;
   std::uint32_t num_frames_ = 0;  ///< 0 = not known.
 };

@@ -7,32 +7,31 @@
 #include "core/extras/osi/trace_file.h"
 #include "core/extras/ros/recording/bag_of_run.h"
 #include "core/io/recording/recording_extras.h"
-#include "core/io/verify/frame_clouds.h"
 
 namespace railcast {
 namespace {
 
 void VerifyTrace(const std::filesystem::path& trace,
-                 const std::vector<CloudsOfFrame>& frames,
+                 const NextClouds& next_frame,
                  bool is_finished,
                  ErrorList& faults) {
   const auto [messages, fault] = osi::ReadTrace(trace);
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (i >= messages.size()) {
-      faults.Add({frames[i].place, "must have its message in " + ShownPath(trace), "none"});
-    } else if (messages[i].hash != frames[i].hash) {
-      faults.Add(
-          {ShownPath(trace) + ": message " + NumberText(i + 1),
-           "must have the hash " + ShownText(frames[i].hash) + ", as " + frames[i].place + " says",
-           messages[i].hash});
+  std::size_t num_frames = 0;
+  for (; const auto frame = next_frame(); ++num_frames) {
+    if (num_frames >= messages.size()) {
+      faults.Add({frame->place, "must have its message in " + ShownPath(trace), "none"});
+    } else if (messages[num_frames].hash != frame->hash) {
+      faults.Add({ShownPath(trace) + ": message " + NumberText(num_frames + 1),
+                  "must have the hash " + ShownText(frame->hash) + ", as " + frame->place + " says",
+                  messages[num_frames].hash});
     }
   }
   if (!is_finished) return;
   CheckHasItsEnd(trace, faults);
   if (!fault.empty()) faults.AddLine(fault);
-  if (messages.size() > frames.size()) {
+  if (messages.size() > num_frames) {
     faults.Add({ShownPath(trace),
-                "must have a message for each of " + NumberText(frames.size()) + " frames",
+                "must have a message for each of " + NumberText(num_frames) + " frames",
                 NumberText(messages.size())});
   }
 }

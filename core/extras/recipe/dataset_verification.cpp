@@ -15,6 +15,7 @@
 #include "core/io/recording/recording_extras.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/run/dataset_files.h"
+#include "core/io/run/folder_kind.h"
 #include "core/io/run/run_record.h"
 #include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
@@ -109,6 +110,7 @@ bool IsDataset(const fs::path& directory) {
 }
 
 DatasetContent ReadDatasetContent(const fs::path& directory) {
+  CheckFolderKind(directory, kDatasetFile);
   const fs::path file = directory / kDatasetFile;
   const auto record = ReadRecord<DatasetRecord>(ReadFileWhole(file), ShownPath(file));
   return {.num_scenarios = record.num_scenarios,
@@ -120,7 +122,12 @@ std::vector<fs::path> FinishedSequences(const fs::path& directory, const Dataset
   // The manifest is written last.
   const std::size_t num_done = NumScenariosDone(directory);
   const bool is_closed = IsThere(directory / kDatasetManifestFile);
-  if (num_done < content.num_own() || !is_closed) {
+  if (is_closed && num_done < content.num_own()) {
+    throw InputError(ShownPath(directory / kScenariosFile) + ": must have a line for each of " +
+                     NumberText(content.num_own()) + " scenarios, since the data set has a " +
+                     std::string(kDatasetManifestFile) + " (got " + NumberText(num_done) + ")");
+  }
+  if (!is_closed) {
     const std::string got =
         num_done < content.num_own()
             ? NumberText(num_done) + " of " + NumberText(content.num_own()) + " scenarios"

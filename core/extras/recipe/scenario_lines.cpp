@@ -53,9 +53,12 @@ std::string ScenarioLines::Take(const PlacedLine& line) {
 
 std::optional<PlacedLine> ScenarioLines::Next() {
   auto line = Read();
-  if (line) is_over_ = !Take(*line).empty();
-  if (is_over_) return std::nullopt;
-  return line;
+  if (!line) return std::nullopt;
+  const std::string fault = Take(*line);
+  if (fault.empty()) return line;
+  fault_ = line->place + ": " + fault;
+  is_over_ = true;
+  return std::nullopt;
 }
 
 PlacedLine ScenarioLines::Need() {

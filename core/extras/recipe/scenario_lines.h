@@ -24,6 +24,9 @@ class ScenarioLines {
   /// incomplete or not as it was written, as an interrupted run may leave it.
   /// @throws InputError if the file cannot be read.
   [[nodiscard]] std::optional<PlacedLine> Next();
+  /// What is wrong with the whole line before which Next() ended: "file:3: rule"; empty if there is
+  /// none, as where a run was interrupted.
+  [[nodiscard]] const std::string& fault() const { return fault_; }
   /// As Next(), for the lines of finished scenarios.
   /// @throws InputError "file:3: rule" also where Next() returns nothing.
   [[nodiscard]] PlacedLine Need();
@@ -47,6 +50,7 @@ class ScenarioLines {
   std::uint32_t num_read_ = 0;
   std::uint64_t size_ = 0;
   bool is_over_ = false;
+  std::string fault_;
 };
 
 }  // namespace railcast

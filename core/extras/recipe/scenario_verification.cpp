@@ -51,37 +51,23 @@ class ScenarioVerifier : private Findings {
       if (!sequence.files.empty()) return CheckFiles(sequence);
       CheckSequence(sequence);
     }
-    if (line.sensors_hash.empty()) return;
-    // That of all sensors stands beside their folders.
-    for (const SequenceRecord& sequence : line.sequences) {
-      if (!sequence.bag) continue;
-      bag_ = (fs::path(sequence.folder) / sequence.bag->path).lexically_normal().generic_string();
+    const fs::path folder = dataset_ / folder_;
+    if (line.sensors_hash.empty()) {
+      Try([&] { Add(VerifySequence(folder, [](double) {})); });
+      return;
     }
-    CheckHash(dataset_ / folder_ / kSensorsFile, line.sensors_hash, line_.place);
-    Try([&] {
-      const auto merged = MergedFolderIn(dataset_ / folder_);
-      if (!merged) return;
-      sequences_.insert(merged->folder.lexically_relative(dataset_).generic_string());
-      Verification found = VerifyMerged(*merged, [](double) {});
-      found.num_frames = 0;  // They are those of the sequences.
-      Add(found);
-    });
-    known_.insert(folder_ + "/" + std::string(kSensorsFile));
-    if (!bag_.empty()) {
-      known_.insert({bag_, folder_ + "/" + std::string(kBagLinesFile)});
-      sequences_.insert(bag_);  // It may be a folder.
-    }
-    FindOthers(dataset_, "belongs to no sequence of the scenario", sequences_, folder_);
+    CheckHash(folder / kSensorsFile, line.sensors_hash, line_.place);
+    Verification found = VerifySensors(folder, [](double) {});
+    found.unchecked.clear();  // The line has a hash of sensors.json.
+    Add(found);
   }
 
   void CheckSequence(const SequenceRecord& line) {
-    sequences_.insert(line.folder);
     const std::string manifest = line.folder + "/" + std::string(kManifestFile);
     if (IsThere(dataset_ / manifest) &&
         CheckHash(dataset_ / manifest, line.manifest_hash, line_.place)) {
       Try([&] { CompareManifest(dataset_ / manifest, line); });
     }
-    Try([&] { Add(VerifySequence(dataset_ / line.folder, [](double) {})); });
   }
 
   void CheckFiles(const SequenceRecord& line) {
@@ -117,8 +103,6 @@ class ScenarioVerifier : private Findings {
   std::uint32_t scenario_;
   std::string folder_;
   const PlacedLine& line_;
-  NameSet sequences_;
-  std::string bag_;  ///< Of the scenario's sensors, if there is one, relative to the data set.
 };
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "core/io/recording/recording_extras.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/run/dataset_files.h"
+#include "core/io/run/folder_kind.h"
 #include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
@@ -119,8 +120,10 @@ std::unique_ptr<Recording> OpenDirectory(const std::filesystem::path& directory)
   if (auto found = OpenAsKind(&RecordingKind::open, directory)) return found;
   CheckExtraIsThere(directory);
   RefuseUnread(directory);
+  const FolderKind* const kind = FindFolderKind(directory);
   throw InputError(ShownPath(directory) + ": must be a sequence or hold " +
-                   ReadableExtensions(true, {".las"}) + " files (got neither)");
+                   ReadableExtensions(true, {".las"}) + " files (got " +
+                   std::string(kind == nullptr ? "neither" : kind->what) + ")");
 }
 
 /// Gathers the remarks of the frames of another recording.

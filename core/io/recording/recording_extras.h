@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,7 +21,6 @@ namespace railcast {
 
 struct BagRecord;
 struct Cloud;
-struct CloudsOfFrame;
 struct SequenceSummary;
 struct Verification;
 
@@ -53,6 +53,17 @@ struct CloudInBag {
   /// @throws InputError "rule (got value)" if they are no cloud.
   Cloud (*parse)(std::span<const std::byte> bytes) = nullptr;
 };
+
+/// What a line of frames.jsonl says of the clouds or the message that a bag or a trace holds of the
+/// frame.
+struct CloudsOfFrame {
+  std::int64_t stamp_ns{};
+  std::string hash;   ///< ContentHash() of its messages, one after another.
+  std::string place;  ///< Of the line: "out/frames.jsonl:3".
+};
+
+/// Returns what one line after another says; nothing at the end.
+using NextClouds = std::function<std::optional<CloudsOfFrame>()>;
 
 /// A sensor in a capture, and the numbers of its packets as PacketOrder and TurnReader count them.
 struct SensorPackets {
@@ -89,12 +100,13 @@ struct RecordingExtras {
   std::function<CloudInBag()> (*clouds_of_bag)(const SequenceSummary& summary) = nullptr;
 
   /// Compares a bag with its lines, if it has any, and its clouds with those of a run's frames.
+  /// @param next_frame Returns what one frame after another says.
   /// @param is_finished Whether the run is: then the bag must be complete.
   /// @param faults Gets a line for all that differs.
   /// @throws InputError if the bag cannot be read.
   void (*verify_bag)(const std::filesystem::path& bag,
                      const BagRecord& record,
-                     const std::vector<CloudsOfFrame>& frames,
+                     const NextClouds& next_frame,
                      bool is_finished,
                      ErrorList& faults) = nullptr;
 
@@ -105,7 +117,7 @@ struct RecordingExtras {
   ///   belongs to no frame.
   /// @throws InputError if the trace cannot be opened.
   void (*verify_trace)(const std::filesystem::path& trace,
-                       const std::vector<CloudsOfFrame>& frames,
+                       const NextClouds& next_frame,
                        bool is_finished,
                        ErrorList& faults) = nullptr;
 

@@ -21,32 +21,56 @@ bool IsThere(const std::filesystem::path& file) {
   return status.type() != std::filesystem::file_type::not_found;
 }
 
+namespace {
+
+void CompareContent(const std::filesystem::path& directory,
+                    const KnownFile& file,
+                    const FileHash& got,
+                    std::string_view said_in) {
+  const std::string said = ", as " + std::string(said_in) + " says (got ";
+  const std::string place = ShownPath(directory / file.name);
+  if (file.bytes && got.num_bytes != *file.bytes) {
+    throw InputError(place + ": must have " + NumberText(*file.bytes) + " bytes" + said +
+                     NumberText(got.num_bytes) + ")");
+  }
+  if (got.hash != file.hash) {
+    throw InputError(place + ": must have the hash " + ShownText(file.hash) + said + got.hash +
+                     ")");
+  }
+}
+
+void CheckIsOfSequence(const std::filesystem::path& directory,
+                       const KnownFile& file,
+                       std::string_view said_in) {
+  if (IsSequenceFile(file.name)) return;
+  throw InputError(ShownPath(directory / said_in) + ": must name files of a sequence (got " +
+                   ShownText(file.name) + ")");
+}
+
+}  // namespace
+
 std::string ReadHashedFile(const std::filesystem::path& directory,
                            const KnownFile& file,
                            std::string_view said_in) {
-  const std::string said = ", as " + std::string(said_in) + " says (got ";
-  const std::filesystem::path path = directory / file.name;
-  std::string bytes = ReadFileWhole(path);
-  if (file.bytes && bytes.size() != *file.bytes) {
-    throw InputError(ShownPath(path) + ": must have " + NumberText(*file.bytes) + " bytes" + said +
-                     NumberText(bytes.size()) + ")");
-  }
-  const std::string hash = ContentHash(bytes);
-  if (hash != file.hash) {
-    throw InputError(ShownPath(path) + ": must have the hash " + ShownText(file.hash) + said +
-                     hash + ")");
-  }
+  std::string bytes = ReadFileWhole(directory / file.name);
+  CompareContent(directory, file, {ContentHash(bytes), bytes.size()}, said_in);
   return bytes;
 }
 
 std::string ReadKnownFile(const std::filesystem::path& directory,
                           const KnownFile& file,
                           std::string_view said_in) {
-  if (!IsSequenceFile(file.name)) {
-    throw InputError(ShownPath(directory / said_in) + ": must name files of a sequence (got " +
-                     ShownText(file.name) + ")");
-  }
+  CheckIsOfSequence(directory, file, said_in);
   return ReadHashedFile(directory, file, said_in);
+}
+
+std::uint64_t CheckKnownFile(const std::filesystem::path& directory,
+                             const KnownFile& file,
+                             std::string_view said_in) {
+  CheckIsOfSequence(directory, file, said_in);
+  const FileHash got = HashFile(directory / file.name);
+  CompareContent(directory, file, got, said_in);
+  return got.num_bytes;
 }
 
 SequenceSummary ReadSequenceSummary(const std::filesystem::path& directory) {
@@ -61,7 +85,7 @@ SequenceSummary ReadSequenceSummary(const std::filesystem::path& directory) {
 void CheckKnownFiles(const SequenceSummary& summary) {
   if (!summary.manifest) {
     for (const KnownFile& file : summary.run.Files()) {
-      (void)ReadKnownFile(summary.directory, file, kRunFile);
+      (void)CheckKnownFile(summary.directory, file, kRunFile);
     }
     return;
   }
@@ -69,7 +93,7 @@ void CheckKnownFiles(const SequenceSummary& summary) {
   for (const KnownFile& file : manifest.Files()) {
     // Nothing is read of a trace, whose size may be that of all frames.
     if (file.name == summary.run.trace) continue;
-    (void)ReadKnownFile(summary.directory, file, kManifestFile);
+    (void)CheckKnownFile(summary.directory, file, kManifestFile);
   }
   const std::string data_hash = DataHash(manifest.files);
   if (manifest.data_hash == data_hash) return;

@@ -33,6 +33,12 @@ namespace railcast {
                                         const KnownFile& file,
                                         std::string_view said_in);
 
+/// As ReadKnownFile(), but reads the file piece by piece and returns its size: it may be larger
+/// than the memory.
+[[nodiscard]] std::uint64_t CheckKnownFile(const std::filesystem::path& directory,
+                                           const KnownFile& file,
+                                           std::string_view said_in);
+
 /// The summary that a sequence directory gives of itself.
 struct SequenceSummary {
   std::filesystem::path directory;

@@ -1,8 +1,12 @@
 #include "core/io/run/sensors_record.h"
 
+#include <algorithm>
+
 #include "core/base/text.h"
 #include "core/io/record/read_record.h"
+#include "core/io/record/record_text.h"
 #include "core/io/run/frame_record.h"
+#include "core/io/run/run_record.h"
 #include "core/io/write_file.h"
 #include "core/scenario/archive.h"
 
@@ -14,7 +18,7 @@ namespace fs = std::filesystem;
 std::optional<SensorsRecord> ReadSensors(const fs::path& directory) {
   const fs::path file = directory / kSensorsFile;
   if (!fs::exists(file)) return std::nullopt;
-  return ReadRecord<SensorsRecord>(ReadFileWhole(file), ShownPath(file));
+  return ReadSensorsText(ReadFileWhole(file), ShownPath(file));
 }
 
 }  // namespace
@@ -33,6 +37,7 @@ void Describe(Archive& a, SensorRecord& s) {
   a.Required("num_frames", s.num_frames, "");
   a.Optional("stride", s.stride, "");
   a.Required("vehicle_from_sensor", s.vehicle_from_sensor, "Its nominal mount.");
+  a.Optional("manifest_xxh3", s.manifest_hash, "Hash of its manifest.json.");
 }
 
 void Describe(Archive& a, MergedFolderRecord& s) {
@@ -44,6 +49,18 @@ void Describe(Archive& a, SensorsRecord& s) {
   a.Required("version", s.version, "", Within(1, 1));
   a.Required("sensors", s.sensors, "In the scenario's order.", NonEmptyList());
   a.Optional("merged", s.merged, "Left out without --merged.");
+}
+
+bool SensorsRecord::has_hashes() const {
+  return std::ranges::none_of(sensors, &std::string::empty, &SensorRecord::manifest_hash);
+}
+
+std::string SensorsText(const SensorsRecord& record) {
+  return WithManifestHash(RecordFile(record));
+}
+
+SensorsRecord ReadSensorsText(const std::string& text, const std::string& place) {
+  return ReadRecord<SensorsRecord>(WithoutManifestHash(text), place);
 }
 
 void Describe(Archive& a, MergedPartRecord& s) {

@@ -44,6 +44,7 @@ struct SensorRecord {
   std::uint32_t num_frames{};
   std::uint32_t stride = 1;
   MountRecord vehicle_from_sensor{};  ///< By the nominal mount.
+  std::string manifest_hash{};        ///< Of its manifest.json; empty before 1.0.
 };
 void Describe(Archive& a, SensorRecord& s);
 
@@ -59,8 +60,17 @@ struct SensorsRecord {
   std::uint32_t version = 1;
   std::vector<SensorRecord> sensors{};
   std::optional<MergedFolderRecord> merged{};
+
+  /// Whether it says what each sensor's manifest is, and has a hash of itself.
+  [[nodiscard]] bool has_hashes() const;
 };
 void Describe(Archive& a, SensorsRecord& s);
+
+/// The content of sensors.json as it is written: with its own hash (WithManifestHash()).
+[[nodiscard]] std::string SensorsText(const SensorsRecord& record);
+/// Reads such a content; its own hash is not checked.
+/// @throws InputError "place: rule" if it is none.
+[[nodiscard]] SensorsRecord ReadSensorsText(const std::string& text, const std::string& place);
 
 /// What a merged cloud has of a sensor's frame.
 struct MergedPartRecord {

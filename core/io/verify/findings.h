@@ -1,9 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
-#include <set>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -11,15 +11,16 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/io/cloud/cloud.h"
 #include "core/io/content_hash.h"
+#include "core/io/run/frame_record.h"
 #include "core/io/unfinished_file.h"
+#include "core/io/verify/known_names.h"
 #include "core/io/verify/verification.h"
 #include "core/io/write_file.h"
+#include "railcast/io/cloud_files.h"
 
 namespace railcast {
-
-/// Names of files or folders.
-using NameSet = std::set<std::string, std::less<>>;
 
 /// Reads a file and compares its hash. Returns what it has, even if that is another one; nothing if
 /// it cannot be read.
@@ -58,6 +59,37 @@ void ForEachFileBelow(const std::filesystem::path& folder,
   }
   if (error) throw FileError(folder, error.value());
 }
+
+/// Where counts are, and what they are compared with, in messages.
+struct CountsPlace {
+  std::string place;      ///< "manifest.json".
+  std::string compared;   ///< "the sum over frames.jsonl".
+  std::string is_absent;  ///< "is in no frame".
+};
+
+/// Adds a fault for each count that differs from what was counted: "place: /points: must be 7, the
+/// sum over frames.jsonl (got 8)".
+void CompareCounts(const FrameCounts& counted,
+                   const FrameCounts& got,
+                   const CountsPlace& place,
+                   ErrorList& faults);
+
+/// A frame's cloud and what its numbers mean.
+struct CountedCloud {
+  const Cloud& cloud;
+  const FrameFormat& format;
+  const LabelTable& labels;
+  std::filesystem::path file;  ///< Its name.
+};
+
+/// Counts a cloud's points, by label and by outcome where it has these fields, and adds a fault for
+/// each count of the frame's line that differs: "frames.jsonl:3: /points: must be 7, as counted in
+/// frames/000012.pcd (got 8)".
+/// @param place Names the line of frames.jsonl.
+void CompareWithCloud(const CountedCloud& counted,
+                      const FrameCounts& line,
+                      const std::string& place,
+                      ErrorList& faults);
 
 /// What a verifier has found so far, and the work that all verifiers do.
 class Findings {
@@ -120,6 +152,8 @@ class Findings {
   void Add(const Verification& found) {
     for (const std::string& fault : found.faults) faults_.AddLine(fault);
     result_.others.insert(result_.others.end(), found.others.begin(), found.others.end());
+    result_.unchecked.insert(result_.unchecked.end(), found.unchecked.begin(),
+                             found.unchecked.end());
     result_.num_frames += found.num_frames;
     result_.num_files += found.num_files;
     result_.num_bytes += found.num_bytes;
@@ -132,7 +166,7 @@ class Findings {
 
   ErrorList faults_;
   Verification result_;
-  NameSet known_;  ///< Files that belong to the folder.
+  KnownNames known_;  ///< Files that belong to the folder.
 };
 
 }  // namespace railcast

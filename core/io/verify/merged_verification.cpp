@@ -17,7 +17,8 @@ class MergedVerifier : private Findings {
 
   Verification Run(const std::function<void(double)>& on_progress) {
     for (const KnownFile& file : merged_.files) {
-      CheckFile(file, [&] { return ReadHashedFile(merged_.folder, file, kSensorsFile); });
+      known_.insert(file.name);
+      CheckHash(merged_.folder / file.name, file.hash, std::string(kSensorsFile));
     }
     Try([&] { CheckClouds(on_progress); });
     FindOthers(merged_.folder, "is named neither in sensors.json nor in merged.jsonl");
@@ -25,15 +26,6 @@ class MergedVerifier : private Findings {
   }
 
  private:
-  template <typename Read>
-  void CheckFile(const KnownFile& file, const Read& read) {
-    known_.insert(file.name);
-    Try([&] {
-      result_.num_bytes += read().size();
-      ++result_.num_files;
-    });
-  }
-
   void CheckClouds(const std::function<void(double)>& on_progress) {
     const auto num_lines = static_cast<double>(CountLines(merged_.folder / kMergedFile));
     LineReader lines(merged_.folder / kMergedFile);
@@ -42,7 +34,11 @@ class MergedVerifier : private Findings {
       const auto file = Attempt(
           "", faults_, [&] { return ReadRecordLine<MergedRecord>(line->text, line->place).file; });
       if (!file) continue;
-      CheckFile(*file, [&] { return ReadKnownFile(merged_.folder, *file, kMergedFile); });
+      known_.insert(file->name);
+      Try([&] {
+        result_.num_bytes += CheckKnownFile(merged_.folder, *file, kMergedFile);
+        ++result_.num_files;
+      });
     }
   }
 

@@ -14,7 +14,7 @@ namespace {
 class SurveyVerifier : private Findings {
  public:
   Verification Run(const std::filesystem::path& directory) {
-    known_.emplace(kSurveyRecordFile);
+    known_.insert(std::string(kSurveyRecordFile));
     const bool has_record = Try([&] {
       if (!IsThere(directory / kSurveyRecordFile)) {
         throw InputError({Fault{ShownPath(directory / kSurveyRecordFile),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -14,12 +15,12 @@
 #include "core/io/recording/recording_extras.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/run/dataset_files.h"
+#include "core/io/run/folder_kind.h"
 #include "core/io/run/motion_files.h"
 #include "core/io/run/run_folder.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/unfinished_file.h"
 #include "core/io/verify/findings.h"
-#include "core/io/verify/frame_clouds.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
 #include "railcast/scenario.h"
@@ -90,6 +91,7 @@ class Verifier : private Findings {
                     const FrameLines& lines,
                     const FrameFormat& format);
   void CheckFrames();
+  [[nodiscard]] NextClouds CloudsOfFrames() const;
   void CheckBag();
   void CheckTrace();
   bool HasAllLines(std::string_view name);
@@ -102,7 +104,6 @@ class Verifier : private Findings {
   std::optional<LabelTable> labels_;
   FrameCounts totals_;
   bool are_frames_known_ = false;
-  std::vector<CloudsOfFrame> clouds_;  ///< If they are in a bag or a trace.
 };
 
 void Verifier::ReadTheManifest() {
@@ -161,13 +162,8 @@ void Verifier::ReadLabels() {
 
 void Verifier::CheckFile(const KnownFile& file, std::string_view said_in) {
   known_.insert(file.name);
-  // A trace is larger than the memory may be.
-  if (file.name == summary_.run.trace) {
-    CheckHash(summary_.directory / file.name, file.hash, std::string(said_in));
-    return;
-  }
   Try([&] {
-    result_.num_bytes += ReadKnownFile(summary_.directory, file, said_in).size();
+    result_.num_bytes += CheckKnownFile(summary_.directory, file, said_in);
     ++result_.num_files;
   });
 }
@@ -262,9 +258,6 @@ void Verifier::CheckFrame(const FrameRecord& line, const FrameLines& lines, bool
     const PlacedLine& objects = lines.records.at(1);
     Try([&] { (void)ReadObjectsLine(objects.text, line.frame, objects.place); });
   }
-  if (summary_.run.bag || !summary_.run.trace.empty()) {
-    clouds_.push_back({line.stamp_ns, line.clouds_hash, lines.frame.place});
-  }
   const std::string hash_fault = LineHashFault(lines.frame.text);
   if (!hash_fault.empty()) faults_.Add({lines.frame.place, hash_fault, ""});
   const FrameFormat* const format = FindFrameFormat(summary_.run.format);
@@ -279,13 +272,27 @@ void Verifier::CheckFrame(const FrameRecord& line, const FrameLines& lines, bool
   totals_.Add(line.counts);
 }
 
+// What is wrong with a line has been said: its frame is left out.
+NextClouds Verifier::CloudsOfFrames() const {
+  const auto frames = std::make_shared<LineReader>(summary_.directory / kFramesFile);
+  return [frames]() -> std::optional<CloudsOfFrame> {
+    while (const auto frame = frames->Next()) {
+      ErrorList known;
+      const auto line =
+          Attempt("", known, [&] { return ReadFrameLine(frame->text, frame->place); });
+      if (line) return CloudsOfFrame{line->stamp_ns, line->clouds_hash, frame->place};
+    }
+    return std::nullopt;
+  };
+}
+
 void Verifier::CheckBag() {
   const bool is_finished = summary_.manifest.has_value();
   fs::path bag = (summary_.directory / summary_.run.bag->path).lexically_normal();
   const fs::path unfinished = bag.string() + std::string(kUnfinishedSuffix);
   if (!fs::exists(bag) && fs::exists(unfinished)) bag = unfinished;
   const auto verify = NeedExtra(RecordingExtras::Get().verify_bag, bag, "ros");
-  verify(bag, *summary_.run.bag, clouds_, is_finished, faults_);
+  verify(bag, *summary_.run.bag, CloudsOfFrames(), is_finished, faults_);
   ++result_.num_files;
   if (fs::is_regular_file(bag)) result_.num_bytes += fs::file_size(bag);
 }
@@ -295,7 +302,7 @@ void Verifier::CheckTrace() {
   fs::path trace = summary_.directory / summary_.run.trace;
   if (!fs::exists(trace) && !summary_.manifest) trace += kUnfinishedSuffix;
   const auto verify = NeedExtra(RecordingExtras::Get().verify_trace, trace, "osi");
-  verify(trace, clouds_, summary_.manifest.has_value(), faults_);
+  verify(trace, CloudsOfFrames(), summary_.manifest.has_value(), faults_);
   ++result_.num_files;
   result_.num_bytes += fs::file_size(trace);
 }
@@ -359,6 +366,18 @@ Verification VerifyFolder(const fs::path& directory,
       throw LacksExtra(ShownPath(directory / file), std::string(extra));
     }
     return verify->second(directory, on_progress);
+  }
+  if (IsOfSensors(directory)) return VerifySensors(directory, on_progress);
+  if (IsSurvey(directory)) return VerifySurvey(directory);
+  const FolderKind* const kind = FindFolderKind(directory);
+  if (kind != nullptr && !kind->why_not.empty()) {
+    throw InputError(ShownPath(directory) + ": is " + std::string(kind->what) + ", which " +
+                     std::string(kind->why_not));
+  }
+  std::error_code error;
+  if (kind == nullptr && fs::exists(directory, error) && !IsThere(directory / kRunFile)) {
+    throw InputError(ShownPath(directory) + ": must be a folder that railcast wrote (got " +
+                     (fs::is_directory(directory, error) ? "another" : "a file") + ")");
   }
   return VerifySequence(directory, on_progress);
 }

@@ -21,6 +21,8 @@ struct Verification {
 
   std::vector<std::string> faults;  ///< Each on one line: "file: rule (got value)".
   std::vector<OtherFile> others{};
+  /// What could not be compared with anything, and why: no faults.
+  std::vector<std::string> unchecked{};
   std::uint64_t num_frames{};  ///< Frames that have a line in frames.jsonl.
   std::uint64_t num_files{};   ///< Files that were read.
   std::uint64_t num_bytes{};   ///< Size of these files.
@@ -40,9 +42,20 @@ struct Verification {
 [[nodiscard]] Verification VerifyMerged(const MergedFolder& merged,
                                         const std::function<void(double)>& on_progress);
 
-/// Verifies what VerifySequence() does, or the folder of an extra's command.
+/// Whether a directory holds a run of several sensors, finished or not.
+[[nodiscard]] bool IsOfSensors(const std::filesystem::path& directory);
+
+/// Verifies the sequences of a run of several sensors and their merged clouds, compares
+/// sensors.json with its own hash and with the sensors' manifests, and looks for files that belong
+/// to none of them.
 /// @param on_progress Called from time to time with the completed share.
-/// @throws InputError if the directory is none of these, or this build lacks the extra.
+[[nodiscard]] Verification VerifySensors(const std::filesystem::path& directory,
+                                         const std::function<void(double)>& on_progress);
+
+/// Verifies a folder of any kind that has records of its files (FindFolderKind()), but a study's.
+/// @param on_progress Called from time to time with the completed share.
+/// @throws InputError if the directory is none of these, or this build lacks the extra; of another
+///   kind, "out/report: is a report, which keeps no hashes of its files: ...".
 [[nodiscard]] Verification VerifyFolder(const std::filesystem::path& directory,
                                         const std::function<void(double)>& on_progress);
 

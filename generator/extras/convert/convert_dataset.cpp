@@ -149,12 +149,21 @@ class DatasetConversion {
     }
   }
 
-  /// Where the folders of several sensors are is the same.
-  void CopySensors(const ScenarioRecord& record) {
+  /// Where the folders of several sensors are is the same; their manifests are others.
+  void CopySensors(ScenarioRecord& record) const {
     const fs::path name = fs::path(SequenceFolderOf(record.scenario)) / kSensorsFile;
-    WriteFileWhole(choices_.directory / name,
-                   ReadHashedFile(choices_.recording, {name.string(), record.sensors_hash, {}},
-                                  kScenariosFile));
+    SensorsRecord sensors =
+        ReadSensorsText(ReadHashedFile(choices_.recording, {name.string(), record.sensors_hash, {}},
+                                       kScenariosFile),
+                        ShownPath(choices_.recording / name));
+    for (SensorRecord& sensor : sensors.sensors) {
+      const auto sequence =
+          std::ranges::find(record.sequences, sensor.name, &SequenceRecord::sensor);
+      if (sequence != record.sequences.end()) sensor.manifest_hash = sequence->manifest_hash;
+    }
+    const std::string text = SensorsText(sensors);
+    WriteFileWhole(choices_.directory / name, text);
+    record.sensors_hash = ContentHash(text);
   }
 
   const ConvertChoices& choices_;

@@ -14,6 +14,8 @@
 #include "core/io/record/read_record.h"
 #include "core/io/record/record_text.h"
 #include "core/io/run/dataset_files.h"
+#include "core/io/run/folder_kind.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/write_file.h"
 #include "generator/extras/dataset/dataset_directory.h"
 
@@ -32,8 +34,10 @@ struct GivenShard {
 void CheckIsWhole(const fs::path& directory, const DatasetSpec& spec) {
   const std::uint32_t num_scenarios = spec.shard.NumOf(spec.record.num_scenarios);
   if (!fs::exists(directory / kDatasetManifestFile)) {
-    throw InputError(ShownPath(directory) + ": is unfinished, with " +
-                     std::to_string(ScenarioLines(directory / kScenariosFile, spec.shard).Skip()) +
+    ScenarioLines lines(directory / kScenariosFile, spec.shard);
+    const std::uint32_t num_done = lines.Skip();
+    if (!lines.fault().empty()) throw InputError(lines.fault());
+    throw InputError(ShownPath(directory) + ": is unfinished, with " + std::to_string(num_done) +
                      " of " + std::to_string(num_scenarios) +
                      " scenarios; the command that began it continues");
   }
@@ -48,6 +52,8 @@ void CheckIsWhole(const fs::path& directory, const DatasetSpec& spec) {
 }
 
 GivenShard ReadShard(const fs::path& directory) {
+  CheckFolderKind(directory, kDatasetFile);
+  RefuseLinks(directory, {"."});
   const fs::path file = directory / kDatasetFile;
   const std::string text = ReadFileWhole(file);
   const auto record = ReadRecord<DatasetRecord>(text, ShownPath(file));

@@ -1,5 +1,6 @@
 #include "generator/run/make_frames.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 
 #include "core/io/content_hash.h"
 #include "core/io/run/sequence_files.h"
+#include "core/io/verify/verification.h"
 #include "generator/run/run_directory.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
@@ -253,6 +255,32 @@ TEST(RunSequence, MendsWhateverWasChangedInACompleteDirectory) {
   }
 }
 
+TEST(RunSequence, GoesOnBeyondNumbersOfSixDigits) {
+  for (const std::string format : {"pcd", "objects"}) {
+    const TemporaryDirectory directory;
+    SequenceSpec spec = ExampleRun(directory.path(), format, 4);
+    spec.start_frame = 999'998;
+    EXPECT_TRUE(RunSequence(spec, MakeExampleFrame, NoHooks()).is_complete);
+    const auto whole = Contents(directory.path());
+    EXPECT_EQ(whole.contains("frames/1000001.pcd"), format == "pcd");
+    EXPECT_THAT(VerifySequence(directory.path(), [](double) {}).faults, testing::IsEmpty());
+    std::filesystem::remove(directory.path() / "manifest.json");
+    std::filesystem::remove(directory.path() / "frames/1000000.pcd");
+    const SequenceResult again = RunSequence(spec, MakeExampleFrame, NoHooks());
+    EXPECT_EQ(again.num_resumed, format == "pcd" ? 2U : 4U);
+    EXPECT_EQ(Contents(directory.path()), whole);
+    for (const std::string name : {"frames/1000002.pcd", "frames/0999998.pcd"}) {
+      std::filesystem::create_directories(directory.path() / "frames");
+      WriteFileWhole(directory.path() / name, "mine");
+      EXPECT_EQ(VerifySequence(directory.path(), [](double) {}).faults.size(), 1U) << name;
+      EXPECT_THAT(
+          RunMessage(spec),
+          testing::HasSubstr("holds a file that does not belong to this run (" + name + ")"));
+      std::filesystem::remove(directory.path() / name);
+    }
+  }
+}
+
 TEST(RunSequence, NamesTheFirstChangedFrameOfACompleteDirectory) {
   const TemporaryDirectory directory;
   (void)RunSequence(ExampleRun(directory.path()), MakeExampleFrame, NoHooks());
@@ -396,13 +424,16 @@ TEST(RunSequence, TakesNoFilesForItsOwnWhereThereIsNoRun) {
   EXPECT_EQ(RunMessage(ExampleRun(directory.path() / "killed")), "no error");
 }
 
-TEST(RunSequence, TakesALinkToAFolderForAFile) {
+TEST(RunSequence, RefusesLinksWhereverTheyLead) {
   const TemporaryDirectory directory;
   const auto out = directory.path() / "out";
   (void)RunSequence(ExampleRun(out), MakeExampleFrame, NoHooks());
   std::filesystem::create_directory(directory.path() / "elsewhere");
   std::filesystem::create_directory_symlink(directory.path() / "elsewhere", out / "notes");
-  EXPECT_EQ(RunMessage(ExampleRun(out)), StrangerMessage(out, "notes"));
+  EXPECT_EQ(RunMessage(ExampleRun(out)),
+            out.string() +
+                ": holds a symbolic link, which no run makes (notes); move it away or "
+                "choose another --out");
 }
 
 TEST(RunSequence, KeepsAnInputThatIsCalledAsIfItWereUnfinished) {

@@ -19,7 +19,6 @@
 #include "core/io/content_hash.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/run/run_record.h"
-#include "core/io/verify/frame_clouds.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
@@ -104,11 +103,12 @@ class CloudTimesReader {
 /// Compares the clouds in a bag with those of frames.
 void CompareWithBag(const std::filesystem::path& bag,
                     const std::vector<std::string>& topics,
-                    const std::vector<CloudsOfFrame>& frames,
+                    const NextClouds& next_frame,
                     ErrorList& faults) {
   CloudTimesReader reader(bag, topics);
   std::optional<CloudsAtTime> clouds = reader.Next();
-  for (const CloudsOfFrame& frame : frames) {
+  while (const auto next = next_frame()) {
+    const CloudsOfFrame& frame = *next;
     for (; clouds && clouds->time_ns < frame.stamp_ns; clouds = reader.Next()) {
       faults.Add(
           {ShownPath(bag), "has a cloud of no frame at " + SecondsText(clouds->time_ns), ""});
@@ -151,14 +151,14 @@ void CheckHasItsEnd(const std::filesystem::path& file, ErrorList& faults) {
 
 void VerifyBag(const std::filesystem::path& bag,
                const BagRecord& record,
-               const std::vector<CloudsOfFrame>& frames,
+               const NextClouds& next_frame,
                bool is_finished,
                ErrorList& faults) {
   // Bags of 0.2 have no such file.
   if (!record.lines.empty()) {
     (void)Attempt("", faults, [&] { return CompareWithBagLines(bag, is_finished, faults), true; });
   }
-  CompareWithBag(bag, record.topics, frames, faults);
+  CompareWithBag(bag, record.topics, next_frame, faults);
   if (is_finished) CheckHasItsEnd(bag, faults);
 }
 

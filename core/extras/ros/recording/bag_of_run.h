@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <vector>
 
 #include "core/base/error.h"
 #include "core/io/recording/recording_extras.h"
@@ -15,7 +14,7 @@ namespace railcast {
 /// RecordingExtras::verify_bag.
 void VerifyBag(const std::filesystem::path& bag,
                const BagRecord& record,
-               const std::vector<CloudsOfFrame>& frames,
+               const NextClouds& next_frame,
                bool is_finished,
                ErrorList& faults);
 

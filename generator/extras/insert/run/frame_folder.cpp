@@ -71,15 +71,19 @@ FrameFolder::FrameFolder(FrameFolderSpec spec)
     fs::remove(spec_.directory / kManifestFile);
     WriteFileWhole(identity.file, identity.text);
   }
-  num_done_ = lines_.Count(spec_.num_frames, [&](std::uint32_t i, std::string_view line) {
+  CountFrames(spec_.num_frames);
+}
+
+void FrameFolder::CountFrames(std::uint32_t most) {
+  num_done_ = lines_.Count(most, [&](std::uint32_t i, std::string_view line) {
     return ReadItem(spec_, line, spec_.first_frame + i);
   });
 }
 
 void FrameFolder::Open(std::uint32_t num_kept) {
-  Check(num_kept <= num_done_, "only frames that are there are kept");
-  num_done_ = num_kept;
-  lines_.Open(num_kept);
+  if (num_kept < num_done_) CountFrames(num_kept);
+  Check(num_kept == num_done_, "only frames that are there are kept");
+  lines_.Open();
 }
 
 void FrameFolder::WriteFixed(const FixedFile& file) {

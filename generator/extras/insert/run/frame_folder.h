@@ -109,6 +109,8 @@ class FrameFolder {
   }
 
  private:
+  /// Counts the first frames that are done.
+  void CountFrames(std::uint32_t most);
   /// Keeps the lines of the first frames and opens the files for those after them.
   void Open(std::uint32_t num_kept);
   /// Removes what was written if no frame was.

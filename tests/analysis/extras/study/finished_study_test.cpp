@@ -1,14 +1,17 @@
 #include "analysis/extras/study/finished_study.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <memory>
 
 #include "analysis/extras/study/kept_files.h"
+#include "analysis/extras/study/study_directory.h"
 #include "core/base/input_file.h"
 #include "core/io/content_hash.h"
 #include "tests/analysis/extras/study/study_project.h"
+#include "tests/core/io/damage.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
 
@@ -104,10 +107,113 @@ TEST_F(FinishedStudies, AreRefusedWhereApproachesAreMissing) {
   const auto lines = folder() / "approaches.jsonl";
   const std::string text = ReadFileWhole(lines);
   WriteFileWhole(lines, text.substr(0, text.find('\n') + 1));
+  std::filesystem::remove(folder() / "manifest.json");
   EXPECT_EQ(MessageOfReading(),
             folder().string() +
-                ": must be a finished study (got 1 of 6 approaches); the command that began it, "
-                "railcast-analyze study, continues it");
+                ": must be a finished study (got 1 of 6 approaches and no manifest.json); the "
+                "command that began it, railcast-analyze study, continues it");
+}
+
+// A line that was changed is no line that is yet to be made.
+TEST_F(FinishedStudies, AreRefusedByALineThatWasChanged) {
+  Make();
+  std::filesystem::remove(folder() / "manifest.json");
+  const auto lines = folder() / "approaches.jsonl";
+  const std::string text = ReadFileWhole(lines);
+  for (const std::size_t line : {0U, 2U, 5U}) {
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < line; ++i) at = text.find('\n', at) + 1;
+    WriteFileWhole(lines, Flipped(text, text.find("\"seed\":", at) + 8));
+    EXPECT_THAT(MessageOfReading(),
+                testing::StartsWith(lines.string() + ":" + std::to_string(line + 1) +
+                                    ": /line_xxh3: must be "));
+  }
+  // The end of an interrupted line is only missing.
+  WriteFileWhole(lines, text.substr(0, text.size() - 5));
+  EXPECT_THAT(MessageOfReading(), testing::HasSubstr("got 5 of 6 approaches"));
+}
+
+TEST_F(FinishedStudies, AreStudies) {
+  EXPECT_THAT(MessageOfReading(), testing::EndsWith("study.json: no such file or directory"));
+  for (const auto& [file, kind] : std::vector<std::pair<std::string, std::string>>{
+           {"dataset.json", "a data set"}, {"insert.jsonl", "a recording with insertions"}}) {
+    std::filesystem::create_directories(folder());
+    WriteFileWhole(folder() / file, "");
+    EXPECT_EQ(MessageOfReading(), folder().string() + ": must be a study (got " + kind + ")");
+    std::filesystem::remove(folder() / file);
+  }
+}
+
+class VerifiedStudies : public FinishedStudies {
+ protected:
+  /// The fault lines, each without the folder.
+  [[nodiscard]] std::vector<std::string> Faults() const {
+    std::vector<std::string> faults = VerifyStudy(folder(), [](double) {}).faults;
+    for (std::string& fault : faults) fault.erase(0, folder().string().size() + 1);
+    return faults;
+  }
+};
+
+TEST_F(VerifiedStudies, AreWholeAsTheyWereWritten) {
+  Make();
+  const Verification found = VerifyStudy(folder(), [](double) {});
+  EXPECT_THAT(found.faults, testing::IsEmpty());
+  EXPECT_THAT(found.unchecked, testing::IsEmpty());
+  EXPECT_EQ(found.num_files, 4U + 6U);
+  WriteFileWhole(folder() / "report.html", "drawn");
+  EXPECT_THAT(VerifyStudy(folder(), [](double) {}).unchecked,
+              testing::ElementsAre(folder().string() +
+                                   ": its report, csv and charts have no hashes; the same command "
+                                   "writes them anew"));
+}
+
+TEST_F(VerifiedStudies, AreChangedWithAnyByte) {
+  Make();
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder())) {
+    if (!entry.is_regular_file()) continue;
+    const std::string bytes = ReadFileWhole(entry.path());
+    WriteFileWhole(entry.path(), Flipped(bytes, bytes.size() / 2));
+    const std::string name = entry.path().lexically_relative(folder()).string();
+    std::vector<std::string> faults;
+    const std::string message = MessageOf([&] { faults = Faults(); });
+    // Without its record, a study cannot be verified.
+    if (message != "no error") {
+      EXPECT_THAT(message, testing::StartsWith(entry.path().string() + ":"));
+    } else {
+      EXPECT_THAT(faults, testing::Contains(testing::StartsWith(name + ":"))) << name;
+    }
+    WriteFileWhole(entry.path(), bytes);
+  }
+}
+
+TEST_F(VerifiedStudies, HaveTheFilesThatTheirManifestNames) {
+  Make();
+  WriteFileWhole(folder() / "sample/notes.txt", "mine");
+  EXPECT_THAT(Faults(), testing::ElementsAre("sample/notes.txt: is not named in manifest.json"));
+  std::filesystem::remove(folder() / "sample/notes.txt");
+  std::filesystem::remove(folder() / "inputs/recipe.json");
+  EXPECT_THAT(Faults(), testing::ElementsAre("inputs/recipe.json: no such file or directory"));
+  std::filesystem::remove(folder() / "manifest.json");
+  const std::string lines = ReadFileWhole(folder() / "approaches.jsonl");
+  WriteFileWhole(folder() / "approaches.jsonl", lines.substr(0, lines.find('\n') + 9));
+  EXPECT_THAT(Faults(),
+              testing::ElementsAre("manifest.json: missing: the study is unfinished",
+                                   "approaches.jsonl: must have a line for each of 6 approaches "
+                                   "(got 1)"));
+}
+
+TEST_F(VerifiedStudies, MayBeShards) {
+  MakeKeptStudy(folder(), {.number = 2, .of = 3});
+  // They keep no files.
+  for (const char* const name : {"manifest.json", "inputs", "sample"}) {
+    std::filesystem::remove_all(folder() / name);
+  }
+  EXPECT_THAT(Faults(), testing::IsEmpty());
+  const std::string lines = ReadFileWhole(folder() / "approaches.jsonl");
+  WriteFileWhole(folder() / "approaches.jsonl", lines.substr(lines.find('\n') + 1));
+  EXPECT_THAT(Faults(), testing::ElementsAre(
+                            "approaches.jsonl:1: must be the line of scenario 1 (got 4)",
+                            "approaches.jsonl: must have a line for each of 2 approaches (got 1)"));
 }
 
 TEST_F(FinishedStudies, AreRefusedIfTheyAreShards) {

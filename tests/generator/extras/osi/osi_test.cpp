@@ -322,6 +322,7 @@ TEST_F(OsiTraces, AreOneForEachSensor) {
   EXPECT_EQ(back[0].lidar_sensor_view(0).view_configuration().sensor_id().value(), 3U);
   EXPECT_THAT(FaultsOf(out / "front"), ElementsAre());
   EXPECT_THAT(FaultsOf(out / "rear"), ElementsAre());
+  EXPECT_THAT(VerifyFolder(out, [](double) {}).faults, ElementsAre());
 }
 
 TEST_F(OsiTraces, HaveTheSameBytesOnAnyNumberOfThreads) {

@@ -15,6 +15,7 @@
 #include "core/extras/ros/messages/cdr.h"
 #include "core/extras/ros/messages/scene_messages.h"
 #include "core/extras/ros/messages/sensor_messages.h"
+#include "core/io/verify/verification.h"
 #include "core/io/write_file.h"
 #include "generator/run/all_sensors.h"
 #include "tests/core/io/damage.h"
@@ -221,6 +222,18 @@ TEST_F(Bags, HaveTheSameBytesHoweverOftenTheyWereInterrupted) {
       EXPECT_TRUE(whole == ReadFileWhole(Make(part, "--format mcap " + frames_) / "frames.mcap"))
           << part;
     }
+  }
+}
+
+TEST_F(Bags, OfSeveralSensorsAreVerifiedWithTheFolderAroundThem) {
+  AddSensor();
+  for (const std::string format : {"mcap", "rosbag2"}) {
+    const fs::path out = Make(format, "--format " + format + " " + frames_);
+    const auto faults = [&] { return VerifyFolder(out, [](double) {}).faults; };
+    EXPECT_THAT(faults(), ElementsAre()) << format;
+    WriteFileWhole(out / "notes.txt", "mine");
+    EXPECT_THAT(faults(), ElementsAre((out / "notes.txt").string() +
+                                      ": belongs to none of the run's sensors"));
   }
 }
 
