@@ -1,8 +1,10 @@
 #include "core/simulate/beam_tracer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/base/units.h"
 #include "core/detect/base/beam_optics.h"
@@ -12,14 +14,39 @@
 namespace railcast {
 namespace {
 
-// Beams closer than this to the centre of the sun are blinded.
+// Beams closer than this to the centre of the whole sun are blinded.
 constexpr double kBlindingAngle_deg = 1.0;
+// Half the mean apparent diameter.
+constexpr double kDiscRadius_deg = 0.2665;
 
 Vector3 DirectionOf(const SunSpec& sun) {
   const double azimuth_rad = RadFromDeg(sun.azimuth_deg);
   const double elevation_rad = RadFromDeg(sun.elevation_deg);
   return {std::cos(elevation_rad) * std::cos(azimuth_rad),
           std::cos(elevation_rad) * std::sin(azimuth_rad), std::sin(elevation_rad)};
+}
+
+// Directions to points of the sun's disc. Wherever an edge hides the disc on one side of it, the
+// share of the points that are visible is that of the disc to 0.1: of 16 points on two circles,
+// these err least.
+std::vector<Vector3> DiscAbout(const Vector3& center) {
+  constexpr std::size_t kNumInner = 4;
+  constexpr double kOffAxes_rad = std::numbers::pi / 24.0;
+  const Vector3 right = center.unitOrthogonal();
+  const Vector3 up = right.cross(center);
+  const double radius = std::tan(RadFromDeg(kDiscRadius_deg));
+  std::vector<Vector3> disc;
+  for (std::size_t i = 0; i < kPacketSize; ++i) {
+    const bool is_inner = i < kNumInner;
+    const double from_center = (is_inner ? 0.3 : 0.76) * radius;
+    const std::size_t num = is_inner ? kNumInner : kPacketSize - kNumInner;
+    const double turn_rad =
+        kOffAxes_rad + (is_inner ? std::numbers::pi / 12.0 : 0.0) +
+        2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(num);
+    disc.push_back((center + from_center * (std::cos(turn_rad) * right + std::sin(turn_rad) * up))
+                       .normalized());
+  }
+  return disc;
 }
 
 }  // namespace
@@ -40,6 +67,7 @@ BeamTracer::BeamTracer(const SimulatorSpec& spec,
                .sigma_rad = static_cast<float>(RadFromDeg(spec_.receiver.pointing_jitter_deg))};
   is_sun_up_ = spec_.effects.sunlight && spec_.weather.sun.illuminance_klx > 0.0;
   to_sun_world_ = DirectionOf(spec_.weather.sun);
+  sun_disc_world_ = DiscAbout(to_sun_world_);
   beam_.sigma_h_rad = static_cast<float>(HorizontalSigma_rad(spec_.beam));
   beam_.sigma_v_rad = static_cast<float>(VerticalSigma_rad(spec_.beam));
   if (is_physical_) {
@@ -100,20 +128,58 @@ void BeamTracer::CastCenters(const WideBeams& beams, bool are_all_needed, Work& 
   for (float& range_m : rays.range_m) range_m = range_m < 0.0F ? range_max_m() : range_m;
 }
 
-void BeamTracer::Blind(const CastFrame& frame, const RayTile& rays, EchoTiles& echoes) const {
+double BeamTracer::VisibleSun(const CastFrame& frame, std::size_t lane, Work& work) const {
+  RayTile& disc = work.to_sun;
+  disc.num_rays = kPacketSize;
+  disc.mask = kAllButWires;
+  for (std::size_t i = 0; i < kPacketSize; ++i) {
+    const Eigen::Vector3f direction =
+        (frame.window_from_world.linear() * sun_disc_world_[i]).cast<float>();
+    disc.origin_x[i] = work.rays.origin_x[lane];
+    disc.origin_y[i] = work.rays.origin_y[lane];
+    disc.origin_z[i] = work.rays.origin_z[lane];
+    disc.direction_x[i] = direction.x();
+    disc.direction_y[i] = direction.y();
+    disc.direction_z[i] = direction.z();
+    disc.shutter[i] = work.rays.shutter[lane];
+    disc.range_m[i] = range_max_m();
+    disc.surface[i] = 0;
+    disc.normal_x[i] = disc.normal_y[i] = disc.normal_z[i] = 0.0F;
+  }
+  if (frame.besides != nullptr) {
+    // First, so that things before them do not count as met by the firing.
+    std::array<std::uint32_t, kPacketSize> firings{};
+    firings.fill(work.echoes.first.firing[lane]);
+    frame.besides->Meet(firings.data(), firings.size(), disc);
+  }
+  frame.caster.Cast(disc);
+  std::size_t num_visible = 0;
+  for (std::size_t i = 0; i < kPacketSize; ++i) {
+    if (disc.surface[i] == 0 && sun_disc_world_[i].z() > 0.0) ++num_visible;
+  }
+  return static_cast<double>(num_visible) / double{kPacketSize};
+}
+
+void BeamTracer::Blind(const CastFrame& frame, Work& work) const {
   const Eigen::Vector3f to_sun = (frame.window_from_world.linear() * to_sun_world_).cast<float>();
-  const auto least_cosine = static_cast<float>(std::cos(RadFromDeg(kBlindingAngle_deg)));
-  const auto is_blind = [&](std::size_t beam) {
-    return rays.direction_x[beam] * to_sun.x() + rays.direction_y[beam] * to_sun.y() +
-               rays.direction_z[beam] * to_sun.z() >
-           least_cosine;
-  };
+  const double below_one = 1.0 - std::cos(RadFromDeg(kBlindingAngle_deg));
+  const RayTile& rays = work.rays;
+  EchoTiles& echoes = work.echoes;
+  std::array<bool, kTileSize> is_blind{};
   for (std::size_t i = 0; i < echoes.first.num_rays; ++i) {
-    if (is_blind(i)) echoes.first.power_ratio[i] = 0.0F;
+    const float cosine = rays.direction_x[i] * to_sun.x() + rays.direction_y[i] * to_sun.y() +
+                         rays.direction_z[i] * to_sun.z();
+    // Glare is in proportion to the visible part of the disc and to 1 / angle^2, which is
+    // 2 (1 - cosine) for so small an angle.
+    const auto is_within = [&](double share) {
+      return cosine > static_cast<float>(1.0 - share * below_one);
+    };
+    is_blind[i] = is_within(1.0) && is_within(VisibleSun(frame, i, work));
+    if (is_blind[i]) echoes.first.power_ratio[i] = 0.0F;
   }
   for (std::size_t i = 0; i < echoes.num_more(); ++i) {
     const auto [tile, lane] = echoes.more(i);
-    if (is_blind(echoes.beam_of(i))) tile.power_ratio[lane] = 0.0F;
+    if (is_blind[echoes.beam_of(i)]) tile.power_ratio[lane] = 0.0F;
   }
 }
 
@@ -183,7 +249,7 @@ void BeamTracer::PassAir(const CastFrame& frame, Work& work, const EffectObserve
     if (observer) observer("spray");
   }
   if (is_sun_up_) {
-    Blind(frame, work.rays, work.echoes);
+    Blind(frame, work);
     if (observer) observer("the sun's disc");
   }
 }

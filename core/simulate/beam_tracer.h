@@ -57,6 +57,7 @@ class BeamTracer {
     Footprint footprint;
     Cover::Drops drops;
     MirrorPaths::Work mirrors;
+    RayTile to_sun;
   };
 
   /// Makes the echoes of a tile of firings up to the point where the receiver (Detector) takes
@@ -108,7 +109,9 @@ class BeamTracer {
  private:
   /// Casts the central rays of beams that need one; of all if `are_all_needed`.
   void CastCenters(const WideBeams& beams, bool are_all_needed, Work& work) const;
-  void Blind(const CastFrame& frame, const RayTile& rays, EchoTiles& echoes) const;
+  /// Share of the sun's disc that nothing hides from a firing, at the time of the firing.
+  [[nodiscard]] double VisibleSun(const CastFrame& frame, std::size_t lane, Work& work) const;
+  void Blind(const CastFrame& frame, Work& work) const;
   /// What becomes of the light on its way through spray and before the sun.
   void PassAir(const CastFrame& frame, Work& work, const EffectObserver& observer) const;
 
@@ -117,6 +120,8 @@ class BeamTracer {
   PointingParameters pointing_;
   bool is_sun_up_{};
   Vector3 to_sun_world_;
+  /// Directions to points of the sun's disc: a packet of rays.
+  std::vector<Vector3> sun_disc_world_;
   DetectorSpec spec_;
   std::vector<LaneOptics> optics_;
   std::vector<LaneOptics> dry_optics_;  ///< Optics of the surfaces without water, for FiringStory.

@@ -134,6 +134,22 @@ TEST(AddedWeather, LeavesTheIntensitiesOfWhatStillReturns) {
   for (const SlotEdit& edit : inserted.edits) EXPECT_FALSE(edit.is_weaker);
 }
 
+TEST(AddedWeather, BlindsNoRecordedReturnBesideTheSun) {
+  const LoopSensor sensor = MakeLoopSensor("pandar64", Fidelity::kFootprint, {25.0, -25.0, 5.0});
+  const RecordedFirings recorded =
+      RecordedOf(ScanLoop(sensor, MakeLoopScene(sensor.scenario)), sensor.pattern);
+  const auto num_points = [&](double elevation_deg) {
+    ScenarioSpec sunny = sensor.scenario;
+    sunny.weather.sun = {
+        .illuminance_klx = 100.0, .azimuth_deg = 0.0, .elevation_deg = elevation_deg};
+    const InsertedFrame inserted =
+        Inserter(PlanOf(sunny, ThingsAlone(sunny, {}), sensor.pattern), 0).Insert(recorded, 0);
+    return std::ranges::count_if(inserted.recorded.frame.x, [](float x) { return !std::isnan(x); });
+  };
+  // Where the sun is does not matter to the noise of its light, nor to false alarms.
+  EXPECT_EQ(num_points(0.5), num_points(80.0));
+}
+
 /// A frame in clear air and what rain of 15 mm/h without drops has left of it, with one seed.
 struct RainedFrame {
   Frame clear, now;
