@@ -106,6 +106,7 @@ void Describe(Archive& a, TerrainSpec& s) {
              "Correlation length of the ground's small heights.", Within(0.1, 100));
   a.Optional("undulation_sigma_m", s.undulation_sigma_m, "Slow rise and fall away from the track.",
              Within(0, 20));
+  a.OneOfTwo("relief", "elevation");
   a.Optional("relief", s.relief,
              "Hills, with cuttings and embankments; absent = as high as the formation.");
   a.Optional("elevation", s.elevation,
@@ -155,6 +156,7 @@ void Describe(Archive& a, VegetationSpec& s) {
 }
 
 void Describe(Archive& a, RecordingWorldSpec& s) {
+  a.OneOfTwo("poses_file", "poses");
   a.Optional("poses", s.poses,
              "Where the sensor's poses come from: recorded; standing, for a sensor that does not "
              "move; registered, estimated by laying each cloud on the one before it. Absent = "
@@ -225,6 +227,7 @@ void Describe(Archive& a, VehicleSpec& s) {
   a.Optional("start_s_m", s.start_s_m, "Chainage of its origin at time 0.", PlaceLimits());
   a.OptionalUnless("motion", s.motion, {}, "Along its track; absent = stands.");
   a.Ensure({"motion"}, !s.motion.path, "must have a profile: the vehicle keeps to its track");
+  a.OneOfTwo("pivot_distance_m", "consist");
   const bool has_pivot_distance = a.OptionalUnless(
       "pivot_distance_m", s.pivot_distance_m, VehicleSpec().pivot_distance_m,
       "Between the pivots on which its body rests; the front one is at its origin. 0 = it "

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
-#include <set>
+#include <utility>
 
 #include "core/base/input_file.h"
 #include "core/base/shipped_files.h"
@@ -105,26 +105,36 @@ bool JsonSource::IsOfFile(const Node& node, const std::string& key) const {
 
 std::optional<MemberList> JsonSource::Members(const Node& node) {
   const bool is_name = node.json->is_string();
-  if (!is_name && !(node.json->is_object() && node.json->contains("file"))) {
+  const bool names_file = is_name || (node.json->is_object() && node.json->contains("file"));
+  if (!names_file && (node.beneath == nullptr || !node.json->is_object())) {
     return PlainMembers(node);
   }
-  // In the resolved scenario, the keys of a base file belong to the object that names the file.
   std::optional<MemberList> list;
-  const auto root = FileRoot(is_name ? node : node.Child("file"), node.resolved_pointer);
-  if (root) sources_.Add(root->resolved_pointer, root->file->shown, "");
-  if (root && CheckRoot(*root)) list = Members(*root);
+  if (names_file) {
+    // In the resolved scenario, the keys of a base file belong to the object that names the file.
+    const auto root = FileRoot(is_name ? node : node.Child("file"), node.resolved_pointer);
+    if (root) sources_.Add(root->resolved_pointer, root->file->shown, "");
+    if (root && CheckRoot(*root)) list = Members(*root);
+  } else {
+    list = Members(*node.beneath);
+    for (const Member& member : list ? list->members : std::vector<Member>{}) {
+      sources_.Add(member.value.resolved_pointer, member.value.file->shown, member.value.pointer);
+    }
+  }
   if (is_name) return list;
   // Read the object's own keys even if its base file cannot be read.
   if (!list) list = MemberList{{}, false};
-  std::set<std::string_view> own_keys;
-  for (const auto& [key, value] : node.json->items()) own_keys.insert(key);
-  std::erase_if(list->members, [&](const Member& member) { return own_keys.contains(member.key); });
   for (Member& member : list->members) ++member.layer;
   for (const auto& [key, value] : node.json->items()) {
     if (key == "file" || IsOfFile(node, key)) continue;
-    const Node child = node.Child(key, value);
-    sources_.Add(child.resolved_pointer, child.file->shown, child.pointer);
-    list->members.push_back({key, child});
+    Member own{key, node.Child(key, value)};
+    sources_.Add(own.value.resolved_pointer, own.value.file->shown, own.value.pointer);
+    const auto replaced = std::ranges::find(list->members, key, &Member::key);
+    if (replaced != list->members.end()) {
+      own.value.beneath = std::make_shared<const Node>(std::move(replaced->value));
+      list->members.erase(replaced);
+    }
+    list->members.push_back(std::move(own));
   }
   return list;
 }

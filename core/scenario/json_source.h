@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,6 +29,8 @@ struct Node {
   const SourceFile* file{};
   std::string pointer;           ///< JSON pointer in the file.
   std::string resolved_pointer;  ///< JSON pointer in the resolved scenario.
+  /// The value that a base file has at this place; null = none.
+  std::shared_ptr<const Node> beneath{};
 
   [[nodiscard]] Node Child(std::string_view key) const;
   /// As above for a value that is known already, which saves the linear search for the key.
@@ -54,8 +57,10 @@ struct MemberList {
 /// Reads the files of one scenario and records their faults and the places of values.
 ///
 /// An object may be given as the name of a file that holds it ("sensors/vlp16.json"), or as an
-/// object whose key "file" names a file with the keys that the object itself lacks. Names are
-/// relative to the file that they are written in. Every such file is an object with "version": 1.
+/// object whose key "file" names a file with the keys that the object itself lacks. Objects within
+/// it then have the keys that they lack from the objects of that file, at any depth, unless they
+/// name a file themselves. Names are relative to the file that they are written in. Every such file
+/// is an object with "version": 1.
 class JsonSource {
  public:
   /// The scenario's root, or nothing if it cannot be read.
@@ -76,7 +81,7 @@ class JsonSource {
   /// The members of an object, whether written in place or given as a file. Nothing if faulty.
   [[nodiscard]] std::optional<MemberList> Members(const Node& node);
   /// As above for an object that may not be given as a file, because it is part of a list or has a
-  /// key "file" of its own.
+  /// key "file" of its own, or is one of several kinds. It replaces that of a base file as a whole.
   [[nodiscard]] std::optional<MemberList> PlainMembers(const Node& node);
 
   /// The absolute name of the file that the string `node` names, or its name as it is if the

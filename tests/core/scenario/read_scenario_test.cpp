@@ -44,6 +44,102 @@ TEST(ReadScenario, LetsAnObjectReplaceKeysOfTheFileItNames) {
   EXPECT_EQ(spec.world, base.world);
 }
 
+// A sensor, a scenario with it, and one that builds on that: keys at every depth.
+constexpr const char* kBaseSensor = R"({"version": 1,
+  "scan": {"rate_hz": 5, "pattern": {"type": "raster", "horizontal_fov_deg": 20,
+           "vertical_fov_deg": 10, "angular_resolution_deg": 1, "order": "rows"}},
+  "receiver": {"range_noise_floor_m": 0.007, "dead_time_ns": 3}, "beam": {"wavelength_nm": 1550},
+  "mount": {"position_m": [1, 2, 3], "pitch_deg": 4}})";
+
+ScenarioSpec OverSections(const TemporaryFolder& folder, const std::string& sections) {
+  folder.Write("sensor.json", kBaseSensor);
+  folder.Write("base.json", OnMinimal(R"(
+    "lidar": {"file": "sensor.json", "receiver": {"dead_time_ns": 8, "edge_loss": 0.1}},
+    "weather": {"rain_rate_mmph": 3, "sun": {"illuminance_klx": 50, "azimuth_deg": 7}},
+    "effects": {"clutter": false},
+    "world": {"alignment": {"gauge_mm": 1000,
+                "course": {"type": "elements", "elements": [{"type": "straight", "length_m": 90}]}},
+              "terrain": {"half_width_m": 30, "relief": {"sigma_m": 3}},
+              "objects": [{"name": "anna", "type": "person", "s_m": 40}]},
+    "vehicle": {"start_s_m": 40, "pivot_distance_m": 7, "ride": {"track_quality": "poor"},
+                "motion": {"profile": [{"time_s": 0, "speed_mps": 5}], "reverse": true}})"));
+  return ReadScenario(
+      folder.Write("a.json", R"({"version": 1, "file": "base.json", )" + sections + "}"));
+}
+
+TEST(ReadScenario, LetsKeysReplaceThoseOfAFileAtEveryDepth) {
+  const TemporaryFolder folder;
+  const ScenarioSpec spec = OverSections(folder, R"(
+    "lidar": {"receiver": {"return_mode": "dual", "edge_loss": 0.2}, "mount": {"yaw_deg": 5},
+              "scan": {"rate_hz": 4}},
+    "weather": {"sun": {"elevation_deg": 9}}, "effects": {"halo": false},
+    "world": {"terrain": {"relief": {"wavelength_m": 200}}, "objects": []},
+    "vehicle": {"start_s_m": 50, "ride": {}, "motion": {"profile": [{"time_s": 0, "speed_mps": 6}]}})");
+  // Own keys, of the scenario below, of the sensor below that.
+  EXPECT_EQ(spec.lidar.receiver.return_mode, ReturnMode::kDual);
+  EXPECT_EQ(spec.lidar.receiver.edge_loss, 0.2);
+  EXPECT_EQ(spec.lidar.receiver.dead_time_ns, 8.0);
+  EXPECT_EQ(spec.lidar.receiver.range_noise_floor_m, 0.007);
+  EXPECT_EQ(spec.lidar.beam.wavelength_nm, 1550.0);
+  EXPECT_EQ(spec.lidar.mount, (MountSpec{{1.0, 2.0, 3.0}, 5.0, 4.0, 0.0}));
+  EXPECT_EQ(spec.lidar.scan.rate_hz, 4.0);
+  EXPECT_EQ(std::get<RasterSpec>(spec.lidar.scan.pattern).order, RasterOrder::kRows);
+  EXPECT_EQ(spec.weather.rain_rate_mmph, 3.0);
+  EXPECT_EQ(spec.weather.sun, (SunSpec{50.0, 7.0, 9.0}));
+  EXPECT_EQ(spec.effects, (std::map<std::string, bool>{{"clutter", false}, {"halo", false}}));
+  EXPECT_EQ(spec.world.alignment.gauge_mm, 1000.0);
+  EXPECT_EQ(spec.world.terrain.half_width_m, 30.0);
+  EXPECT_EQ(spec.world.terrain.relief->sigma_m, 3.0);
+  EXPECT_EQ(spec.world.terrain.relief->wavelength_m, 200.0);
+  EXPECT_EQ(spec.world.objects.size(), 0U);
+  EXPECT_EQ(spec.vehicle.pivot_distance_m, 7.0);
+  EXPECT_EQ(spec.vehicle.ride->track_quality, TrackQuality::kPoor);
+  EXPECT_TRUE(spec.vehicle.motion.reverse);
+  EXPECT_EQ(spec.vehicle.motion.profile.size(), 1U);
+  EXPECT_EQ(spec.vehicle.motion.profile[0].speed_mps, 6.0);
+}
+
+TEST(ReadScenario, ReplacesListsFilesAndTypedObjectsAsAWhole) {
+  const TemporaryFolder folder;
+  folder.Write("dual.json", R"({"version": 1, "return_mode": "dual"})");
+  const ScenarioSpec spec = OverSections(folder, R"(
+    "lidar": {"receiver": "dual.json", "mount": {"position_m": [0, 0, 5]},
+              "scan": {"pattern": {"type": "raster", "horizontal_fov_deg": 30,
+                       "vertical_fov_deg": 10, "angular_resolution_deg": 1}}},
+    "weather": {"file": ")" + (ScenariosDir() / "weather/snow.json").string() +
+                                                     R"("},
+    "vehicle": {"consist": [{"type": "multiple_unit"}]})");
+  EXPECT_EQ(spec.lidar.receiver, (ReceiverSpec{.return_mode = ReturnMode::kDual}));
+  EXPECT_EQ(spec.lidar.mount, (MountSpec{{0.0, 0.0, 5.0}, 0.0, 4.0, 0.0}));
+  EXPECT_EQ(std::get<RasterSpec>(spec.lidar.scan.pattern).order, RasterOrder::kColumns);
+  EXPECT_EQ(spec.lidar.scan.rate_hz, 5.0);
+  EXPECT_EQ(spec.weather.rain_rate_mmph, 0.0);
+  EXPECT_EQ(spec.weather.sun, SunSpec());
+  // One of two keys for the same quantity replaces the other one below it.
+  EXPECT_EQ(spec.vehicle.consist.size(), 1U);
+}
+
+TEST(ReadScenario, NamesTheFileThatANestedValueStandsIn) {
+  const TemporaryFolder folder;
+  const auto fault_of = [&](const std::string& sections) {
+    return MessageOf([&] { static_cast<void>(OverSections(folder, sections)); });
+  };
+  const std::string in = folder.Write("any.json", "").parent_path().string();
+  EXPECT_EQ(fault_of(R"("lidar": {"receiver": {"edge_loss": 7}})"),
+            in + "/a.json: /lidar/receiver/edge_loss: must be >= 0 and <= 1 (got 7)");
+  EXPECT_EQ(fault_of(R"("lidar": {"receiver": {"edge_los": 0.1}})"),
+            in + "/a.json: /lidar/receiver/edge_los: unknown key, the nearest is \"edge_loss\"");
+  const ScenarioSpec spec = OverSections(folder, R"("lidar": {"receiver": {"edge_loss": 0.2}})");
+  EXPECT_EQ(spec.sources.Place("/lidar/receiver/edge_loss"),
+            in + "/a.json: /lidar/receiver/edge_loss");
+  EXPECT_EQ(spec.sources.Place("/lidar/receiver/dead_time_ns"),
+            in + "/base.json: /lidar/receiver/dead_time_ns");
+  EXPECT_EQ(spec.sources.Place("/lidar/receiver/range_noise_floor_m"),
+            in + "/sensor.json: /receiver/range_noise_floor_m");
+  EXPECT_EQ(spec.sources.Place("/vehicle/ride/track_quality"),
+            in + "/base.json: /vehicle/ride/track_quality");
+}
+
 TEST(ReadScenario, LetsAFileNameTheNextOne) {
   const TemporaryFolder folder;
   folder.Write("fog.json", R"({"version": 1, "fog_density_per_m": 0.02, "rain_rate_mmph": 3})");

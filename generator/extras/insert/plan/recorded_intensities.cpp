@@ -25,15 +25,12 @@ bool GivesNoise(const std::filesystem::path& plan_file) {
   JsonSource source;
   std::optional<Node> node = source.Open(plan_file);
   for (const std::string key : {"lidar", "receiver", "intensity_noise"}) {
-    const bool is_of_sensor = key == "receiver";
-    if (is_of_sensor && node->json->is_string()) return false;
     const auto object = source.Members(*node);
-    const auto member =
-        std::ranges::find_if(object->members, [&](const Member& each) { return each.key == key; });
-    if (member == object->members.end() || (is_of_sensor && member->layer > 0)) return false;
+    const auto member = std::ranges::find(object->members, key, &Member::key);
+    if (member == object->members.end()) return false;
     node = member->value;
   }
-  return true;
+  return node->pointer.starts_with("/lidar/");
 }
 
 std::string WhyNot(const GridTurns& grids, const TurnNoise& noise) {
