@@ -155,7 +155,11 @@ class RailWorld final : public World {
   /// The same world with other things.
   RailWorld(const RailWorld& like, std::shared_ptr<const Things> things);
   /// The vehicle moves on its springs, if it has any; its bogies do not.
-  [[nodiscard]] Transform WorldFromVehicleAt(double s_m, double speed_mps) const;
+  /// @param after_s Since `time_ns`, if its stretch of constant acceleration goes on.
+  [[nodiscard]] Transform WorldFromVehicleAt(double s_m,
+                                             double speed_mps,
+                                             std::int64_t time_ns,
+                                             double after_s) const;
 
   std::shared_ptr<const Line> line_;
   std::shared_ptr<const Setting> setting_;

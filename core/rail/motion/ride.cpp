@@ -57,6 +57,15 @@ Complex Suspension::At(double at_hz) const {
   return (1.0 + damped) / (1.0 - ratio * ratio + damped);
 }
 
+double Suspension::LeftOfStep(double since_s) const {
+  const double free_radps = kFullTurn_rad * frequency_hz;
+  const double damped_radps = free_radps * std::sqrt(1.0 - SquareOf(damping));
+  const double decay_per_s = damping * free_radps;
+  const double turned_rad = damped_radps * since_s;
+  return std::exp(-decay_per_s * since_s) *
+         (std::cos(turned_rad) + decay_per_s / damped_radps * std::sin(turned_rad));
+}
+
 Ride::Ride(const RideSpec& spec, std::uint64_t seed, double pivot_distance_m)
     : pivot_distance_m_(pivot_distance_m) {
   const TrackSpectrum spectrum = SpectrumOf(spec.track_quality);
@@ -79,11 +88,13 @@ Ride::Ride(const RideSpec& spec, std::uint64_t seed, double pivot_distance_m)
   }
 }
 
-RideMotion Ride::At(double s_m, double speed_mps, bool runs_back) const {
+RideMotion Ride::At(double s_m, double speed_mps, bool runs_back, double sprung_mps2) const {
   // Phases are counted in the direction of travel, in which time passes.
   const double direction = runs_back ? -1.0 : 1.0;
   const double middle_s_m = s_m - direction * 0.5 * pivot_distance_m_;
   RideMotion motion;
+  motion.pitch_rad = -sprung_mps2 * kAboveLinks_m /
+                     SquareOf(kFullTurn_rad * kVertical.frequency_hz * 0.5 * pivot_distance_m_);
   for (const RideWave& wave : waves_) {
     const double frequency_hz = wave.rad_per_m * speed_mps / kFullTurn_rad;
     const double half_turn_rad = 0.5 * wave.rad_per_m * pivot_distance_m_;

@@ -51,6 +51,9 @@ struct Suspension {
 
   /// (1 + 2 i D r) / (1 - r^2 + 2 i D r) with r the ratio of the frequencies.
   [[nodiscard]] std::complex<double> At(double frequency_hz) const;
+  /// By how much the mass is not where a force leads it, so long after this has appeared: from 1 to
+  /// 0 by exp(-D w t) (cos(w' t) + D w / w' sin(w' t)), w' = w sqrt(1 - D^2).
+  [[nodiscard]] double LeftOfStep(double since_s) const;
 };
 
 /// How a sprung body moves over an irregular track.
@@ -61,22 +64,41 @@ struct Suspension {
 /// a suspension of its own at the frequency at which the speed makes it pass the wave. Speed
 /// changes so slowly that each wave has settled.
 ///
-/// Validity: a linear model. It has neither flexible bodies nor stops, nor the hunting of wheels.
-/// Frequencies and damping are working values in the range of passenger vehicles (vertical 1 to
-/// 1.5 Hz, sway 0.5 to 0.8 Hz: Iwnicki 2006, "Handbook of Railway Vehicle Dynamics").
+/// Traction and brakes pull the body at the height of its links to the bogies, its inertia acts at
+/// the centre of gravity, and the springs carry the moment of the two. With springs so stiff that a
+/// body of mass m swings vertically at w, m w^2, at half the pivots' distance L before and behind
+/// its middle, the acceleration a raises the nose by
+///
+///   a (h - z) / (w^2 L^2),   h - z = 1.2 m from the links to the centre of gravity
+///
+/// and the body follows each change of a as a mass on its spring does. From published masses and
+/// stiffnesses (coach of the Manchester Benchmarks: Iwnicki 1998, Vehicle System Dynamics 30; power
+/// car: Zhai, Wang and Cai 2009, Vehicle System Dynamics 47) it is 0.017 and 0.042 deg for 1 m/s^2,
+/// and by this formula with their pivots 19 and 11.46 m apart 0.013 and 0.037.
+///
+/// Validity: a linear model. It has neither flexible bodies nor stops, nor the hunting of wheels,
+/// nor what gradients and couplers do to the pitch. Frequencies and damping are working values in
+/// the range of passenger vehicles (vertical 1 to 1.5 Hz, sway 0.5 to 0.8 Hz: Iwnicki 2006,
+/// "Handbook of Railway Vehicle Dynamics"), and so is h - z.
 class Ride {
  public:
   static constexpr double kAxleDistance_m = 2.5;  ///< In a bogie.
   static constexpr Suspension kVertical{1.2, 0.2};
   static constexpr Suspension kLateral{1.0, 0.2};
   static constexpr Suspension kRoll{0.7, 0.2};
+  static constexpr double kAboveLinks_m = 1.2;  ///< Centre of gravity above the links, h - z.
 
   /// @param seed Of the track.
   /// @pre pivot_distance_m > 0.
   Ride(const RideSpec& spec, std::uint64_t seed, double pivot_distance_m);
 
   /// @param s_m Chainage of the front pivot.
-  [[nodiscard]] RideMotion At(double s_m, double speed_mps, bool runs_back) const;
+  /// @param sprung_mps2 The acceleration in the direction of travel, as kVertical follows it
+  ///   (SpeedProfile).
+  [[nodiscard]] RideMotion At(double s_m,
+                              double speed_mps,
+                              bool runs_back,
+                              double sprung_mps2 = 0.0) const;
   /// The vehicle's frame, which has its origin at the front pivot, seen from where it would be.
   [[nodiscard]] Transform PerfectFromVehicle(const RideMotion& motion) const;
 

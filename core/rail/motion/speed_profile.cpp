@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/rail/motion/ride.h"
 
 namespace railcast {
 namespace {
@@ -130,9 +131,14 @@ SpeedProfile SpeedProfile::WithSpeedFrom(double time_s,
   const double difference_mps = speed_mps - now.speed_mps;
   SpeedProfile changed = *this;
   changed.corners_ = {change};
+  if (difference_mps != 0.0) {
+    changed.corners_.front().acceleration_mps2 = std::copysign(acceleration_mps2, difference_mps);
+  }
+  changed.dropped_ = RecentJolts(time_s);
+  changed.dropped_.push_back(
+      {time_s, changed.corners_.front().acceleration_mps2 - now.acceleration_mps2});
   if (difference_mps == 0.0) return changed;
   const double duration_s = std::abs(difference_mps) / acceleration_mps2;
-  changed.corners_.front().acceleration_mps2 = std::copysign(acceleration_mps2, difference_mps);
   Corner end{.time_s = time_s + duration_s,
              .travelled_m = change.travelled_m + 0.5 * (now.speed_mps + speed_mps) * duration_s,
              .speed_mps = speed_mps};
@@ -163,6 +169,31 @@ SpeedProfile::State SpeedProfile::At(double time_s) const {
           .acceleration_mps2 = corner.acceleration_mps2,
           .speeding_up_m = here.speeding_up_m,
           .slowing_down_m = here.slowing_down_m};
+}
+
+std::vector<SpeedProfile::Jolt> SpeedProfile::RecentJolts(double time_s) const {
+  constexpr double kMemory_s = 10.0;  // Leaves 3e-7 of a jolt at 1.2 Hz and a fifth of damping.
+  std::vector<Jolt> recent;
+  const auto add = [&](const Jolt& jolt) {
+    if (jolt.time_s <= time_s && jolt.time_s > time_s - kMemory_s) recent.push_back(jolt);
+  };
+  std::ranges::for_each(dropped_, add);
+  const auto first = std::ranges::upper_bound(corners_, time_s - kMemory_s, {}, &Corner::time_s);
+  for (auto corner = std::max(first, corners_.begin() + 1); corner < corners_.end(); ++corner) {
+    if (corner->time_s > time_s) break;
+    add({corner->time_s, corner->acceleration_mps2 - (corner - 1)->acceleration_mps2});
+  }
+  return recent;
+}
+
+double SpeedProfile::SprungAcceleration_mps2(const Suspension& suspension,
+                                             double time_s,
+                                             double after_s) const {
+  double sprung_mps2 = At(time_s).acceleration_mps2;
+  for (const Jolt& jolt : RecentJolts(time_s)) {
+    sprung_mps2 -= jolt.change_mps2 * suspension.LeftOfStep(time_s + after_s - jolt.time_s);
+  }
+  return sprung_mps2;
 }
 
 std::optional<double> SpeedProfile::TimeAt_s(double s_m) const {

@@ -7,6 +7,8 @@
 
 namespace railcast {
 
+struct Suspension;
+
 /// Chainage and speed of an object on a track as functions of time, in closed form.
 ///
 /// Acceleration is constant between the points of the profile. Before the first and after the last
@@ -40,6 +42,13 @@ class SpeedProfile {
 
   /// Before time 0 and before the last change, the motion that begins there is continued backwards.
   [[nodiscard]] State At(double time_s) const;
+  /// The acceleration as something on a spring and a damper follows it, which a constant one has
+  /// settled long ago.
+  /// @param after_s Then instead, if the stretch of constant acceleration that `time_s` is in goes
+  ///   on.
+  [[nodiscard]] double SprungAcceleration_mps2(const Suspension& suspension,
+                                               double time_s,
+                                               double after_s = 0.0) const;
   /// When the chainage is reached for the first time; absent if it lies behind or is never reached.
   /// The time is not before that of the last change.
   [[nodiscard]] std::optional<double> TimeAt_s(double s_m) const;
@@ -60,7 +69,16 @@ class SpeedProfile {
     void CountDistancesSince(const Corner& before);
   };
 
+  /// A sudden change of the acceleration.
+  struct Jolt {
+    double time_s{};
+    double change_mps2{};
+  };
+  /// Those up to `time_s` whose effect on a suspension has not died away.
+  [[nodiscard]] std::vector<Jolt> RecentJolts(double time_s) const;
+
   std::vector<Corner> corners_;  ///< The first is at time 0.
+  std::vector<Jolt> dropped_;    ///< Of corners that were dropped, and that of the last change.
   double start_s_m_{};
   double direction_ = 1.0;
 };

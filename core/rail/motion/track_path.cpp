@@ -125,6 +125,12 @@ SpeedProfile::State TrackPath::StateAt(std::int64_t time_ns) const {
   return profile_.At(SecondsFromNs(time_ns - begin_ns_));
 }
 
+double TrackPath::SprungAccelerationAt_mps2(const Suspension& suspension,
+                                            std::int64_t time_ns,
+                                            double after_s) const {
+  return profile_.SprungAcceleration_mps2(suspension, SecondsFromNs(time_ns - begin_ns_), after_s);
+}
+
 TrackPath TrackPath::Behind(std::shared_ptr<const TrackLength> length,
                             double behind_m,
                             const TrackPose& pose) const {
@@ -195,13 +201,14 @@ RigidMotion Differentiated(const std::function<Transform(double after_s)>& world
 RigidMotion MotionOnTrack(
     const TrackPath& path,
     std::int64_t time_ns,
-    const std::function<Transform(double s_m, double speed_mps)>& world_from_body_at) {
+    const std::function<Transform(double s_m, double speed_mps, double after_s)>&
+        world_from_body_at) {
   const SpeedProfile::State now = path.StateAt(time_ns);
   const double direction = path.reverse() ? -1.0 : 1.0;
   return Differentiated([&](double after_s) {
     const double later_mps = now.speed_mps + now.acceleration_mps2 * after_s;
     const double ahead_m = 0.5 * (now.speed_mps + later_mps) * after_s;
-    return world_from_body_at(now.s_m + direction * ahead_m, later_mps);
+    return world_from_body_at(now.s_m + direction * ahead_m, later_mps, after_s);
   });
 }
 

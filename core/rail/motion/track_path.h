@@ -59,6 +59,10 @@ class TrackPath {
   [[nodiscard]] double SpeedAt_mps(std::int64_t time_ns) const;
   /// The profile's state: of something that is behind another one, that of the foremost.
   [[nodiscard]] SpeedProfile::State StateAt(std::int64_t time_ns) const;
+  /// SpeedProfile::SprungAcceleration_mps2() of the same.
+  [[nodiscard]] double SprungAccelerationAt_mps2(const Suspension& suspension,
+                                                 std::int64_t time_ns,
+                                                 double after_s = 0.0) const;
   [[nodiscard]] double ChainageAt(std::int64_t time_ns) const;
   /// When the object comes to the chainage; absent if it lies behind or is never reached.
   [[nodiscard]] std::optional<double> TimeAt_s(double s_m) const;
@@ -97,12 +101,13 @@ class TrackPath {
 
 inline constexpr double kDifference_s = 0.004;
 
-/// The motion of something on a track, whose pose is a function of chainage and speed. The stretch
-/// of constant acceleration that the time is in is continued beyond its ends, so that a jump of the
-/// acceleration is not blurred.
+/// The motion of something on a track, whose pose is a function of chainage, speed and the time
+/// since `time_ns`. The stretch of constant acceleration that the time is in is continued beyond
+/// its ends, so that a jump of the acceleration is not blurred.
 [[nodiscard]] RigidMotion MotionOnTrack(
     const TrackPath& path,
     std::int64_t time_ns,
-    const std::function<Transform(double s_m, double speed_mps)>& world_from_body_at);
+    const std::function<Transform(double s_m, double speed_mps, double after_s)>&
+        world_from_body_at);
 
 }  // namespace railcast

@@ -279,20 +279,27 @@ VehicleTravel RailWorld::VehicleTravelAt(std::int64_t time_ns) const {
 
 RigidMotion RailWorld::VehicleMotion(std::int64_t time_ns) const {
   return MotionOnTrack(things_->vehicle, time_ns,
-                       [&](double s_m, double v_mps) { return WorldFromVehicleAt(s_m, v_mps); });
+                       [&](double s_m, double speed_mps, double after_s) {
+                         return WorldFromVehicleAt(s_m, speed_mps, time_ns, after_s);
+                       });
 }
 
-Transform RailWorld::WorldFromVehicleAt(double s_m, double speed_mps) const {
+Transform RailWorld::WorldFromVehicleAt(double s_m,
+                                        double speed_mps,
+                                        std::int64_t time_ns,
+                                        double after_s) const {
   const TrackPath& path = things_->vehicle;
   Transform world_from_perfect = path.WorldFromObjectAt(line_->alignment, s_m);
   const std::optional<Ride>& ride = setting_->ride;
   if (!ride) return world_from_perfect;
-  return world_from_perfect * ride->PerfectFromVehicle(ride->At(s_m, speed_mps, path.reverse()));
+  const double sprung_mps2 = path.SprungAccelerationAt_mps2(Ride::kVertical, time_ns, after_s);
+  return world_from_perfect *
+         ride->PerfectFromVehicle(ride->At(s_m, speed_mps, path.reverse(), sprung_mps2));
 }
 
 Transform RailWorld::WorldFromVehicle(std::int64_t time_ns) const {
   const SpeedProfile::State now = things_->vehicle.StateAt(time_ns);
-  return WorldFromVehicleAt(now.s_m, now.speed_mps);
+  return WorldFromVehicleAt(now.s_m, now.speed_mps, time_ns, 0.0);
 }
 
 int RailWorld::HomeChunk(std::int64_t time_ns) const {

@@ -107,6 +107,32 @@ TEST(Ride, StandsOnTheSameTrackInBothDirections) {
   EXPECT_GT(std::abs(forth.vertical_m), 1e-5);
 }
 
+// The springs at each pivot (those of the body and the bogies, one after the other) carry the
+// moment of the inertia over the arm of half the pivots' distance.
+TEST(Ride, PitchesAsTheSpringsOfPublishedVehiclesLetIt) {
+  struct Published {
+    double mass_kg, half_pivots_m, secondary_N_per_m, primary_N_per_m;
+  };
+  for (const Published& vehicle :
+       {Published{32'000.0, 9.5, 0.86e6, 4.8e6}, Published{59'364.2, 5.73, 1.7716e6, 9.5984e6},
+        Published{29'600.0, 9.0, 0.82e6, 3.492e6}}) {
+    const double stiffness =
+        1.0 / (1.0 / vehicle.secondary_N_per_m + 1.0 / vehicle.primary_N_per_m);
+    const double expected_rad = vehicle.mass_kg * Ride::kAboveLinks_m /
+                                (2.0 * stiffness * std::pow(vehicle.half_pivots_m, 2));
+    const Ride ride({}, 7, 2.0 * vehicle.half_pivots_m);
+    const auto pitch_rad = [&](double sprung_mps2, bool runs_back) {
+      return ride.At(300.0, 20.0, runs_back, sprung_mps2).pitch_rad -
+             ride.At(300.0, 20.0, runs_back).pitch_rad;
+    };
+    // Stiffer by (1.2 / 1.07)^2 and (1.2 / 1.13)^2: that of the ride is not each vehicle's.
+    EXPECT_NEAR(pitch_rad(-1.0, false), expected_rad, 0.25 * expected_rad);
+    EXPECT_NEAR(pitch_rad(1.3, true), -1.3 * pitch_rad(-1.0, false), 1e-15);
+    const Transform pose = ride.PerfectFromVehicle({.pitch_rad = pitch_rad(-1.0, false)});
+    EXPECT_LT(pose.linear().col(0).z(), 0.0) << "brakes lower the nose";
+  }
+}
+
 // The front pivot rises by the mean and by half the pivots' distance times the slope.
 TEST(Ride, TurnsTheVehicleAboutTheMiddleBetweenItsPivots) {
   const Ride ride({}, 7, kPivots_m);

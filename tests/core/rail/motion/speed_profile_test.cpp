@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
+#include "core/rail/motion/ride.h"
 #include "tests/core/io/message_of.h"
 
 namespace railcast {
@@ -191,6 +195,76 @@ TEST(SpeedProfile, CountsWhereTheSpeedRoseAndFellAlsoAcrossChanges) {
   // 2 s from 12 to 11 m/s, then 3 s from 11 to 14.
   EXPECT_DOUBLE_EQ(changed.At(30.0).slowing_down_m, 23.0);
   EXPECT_DOUBLE_EQ(changed.At(30.0).speeding_up_m, 70.0 + 37.5);
+}
+
+constexpr Suspension kSpring{1.2, 0.2};
+
+// x'' = w^2 (a - x) - 2 D w x', in steps so small that the classical Runge-Kutta method errs by far
+// less than the test tells apart, from rest at the first acceleration.
+class SpringInSteps {
+ public:
+  explicit SpringInSteps(double settled_mps2) : x_(settled_mps2) {}
+  void Pass(double duration_s, double acceleration_mps2) {
+    const int num_steps = static_cast<int>(std::ceil(duration_s / 1e-3));
+    const double h = duration_s / num_steps;
+    const double w = 2.0 * std::numbers::pi * kSpring.frequency_hz;
+    const auto force = [&](double x, double v) {
+      return w * w * (acceleration_mps2 - x) - 2.0 * kSpring.damping * w * v;
+    };
+    for (int i = 0; i < num_steps; ++i) {
+      const double v1 = v_, f1 = force(x_, v1);
+      const double v2 = v_ + 0.5 * h * f1, f2 = force(x_ + 0.5 * h * v1, v2);
+      const double v3 = v_ + 0.5 * h * f2, f3 = force(x_ + 0.5 * h * v2, v3);
+      const double v4 = v_ + h * f3, f4 = force(x_ + h * v3, v4);
+      x_ += h / 6.0 * (v1 + 2.0 * v2 + 2.0 * v3 + v4);
+      v_ += h / 6.0 * (f1 + 2.0 * f2 + 2.0 * f3 + f4);
+    }
+  }
+  [[nodiscard]] double x() const { return x_; }
+
+ private:
+  double x_;
+  double v_ = 0.0;
+};
+
+TEST(SpeedProfile, TellsHowSomethingOnASpringFollowsItsAcceleration) {
+  // Brakes, lets go, brakes harder and stands.
+  const SpeedProfile profile(
+      {{AtTime(0, 8), AtTime(2, 10), AtTime(5, 7), AtTime(5.6, 7), AtTime(9.1, 0)}}, 0.0);
+  SpringInSteps spring(1.0);
+  const double end_s[] = {2.0, 5.0, 5.6, 9.1, 40.0};
+  double time_s = 0.0;
+  for (const double corner_s : end_s) {
+    const double acceleration_mps2 = profile.At(time_s).acceleration_mps2;
+    for (int i = 0; i < 7; ++i) {
+      const double step_s = (corner_s - time_s) / (7 - i);
+      spring.Pass(step_s, acceleration_mps2);
+      time_s = i == 6 ? corner_s : time_s + step_s;
+      // What is older than 10 s is left out.
+      EXPECT_NEAR(profile.SprungAcceleration_mps2(kSpring, time_s), spring.x(), 1e-6) << time_s;
+    }
+  }
+  EXPECT_EQ(profile.SprungAcceleration_mps2(kSpring, -3.0), 1.0);
+  EXPECT_EQ(profile.SprungAcceleration_mps2(kSpring, 100.0), 0.0);
+  // If the stretch went on.
+  SpringInSteps longer(1.0);
+  longer.Pass(2.0, 1.0);
+  longer.Pass(3.25, -1.0);
+  EXPECT_NEAR(profile.SprungAcceleration_mps2(kSpring, 4.0, 1.25), longer.x(), 1e-6);
+}
+
+TEST(SpeedProfile, GoesOnSwingingAcrossChangesOfSpeed) {
+  const SpeedProfile profile({{AtTime(0, 20), AtTime(1, 20), AtTime(11, 10)}}, 0.0);
+  SpringInSteps spring(0.0);
+  spring.Pass(1.0, 0.0);
+  spring.Pass(0.3, -1.0);
+  const SpeedProfile let_go = profile.WithSpeedFrom(1.3, 19.7, 2.0);
+  EXPECT_NEAR(let_go.SprungAcceleration_mps2(kSpring, 1.3), spring.x(), 1e-6);
+  spring.Pass(0.2, 0.0);
+  const SpeedProfile twice = let_go.WithSpeedFrom(1.5, 0.0, 2.0).WithSpeedFrom(1.5, 30.0, 0.5);
+  EXPECT_NEAR(twice.SprungAcceleration_mps2(kSpring, 1.5), spring.x(), 1e-6);
+  spring.Pass(0.4, 0.5);
+  EXPECT_NEAR(twice.SprungAcceleration_mps2(kSpring, 1.9), spring.x(), 1e-6);
 }
 
 }  // namespace
