@@ -13,6 +13,7 @@
 
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/rail/clearance/clear_space.h"
 #include "core/rail/motion/speed_profile.h"
 #include "railcast/scenario.h"
 
@@ -221,6 +222,11 @@ std::string LineText(const Alignment& alignment, double gauge_mm, bool is_verbos
       Rounded(alignment.length_m(), 1) + " m, " +
           (std::isinf(radius_m) ? "straight" : "tightest radius " + Rounded(radius_m, 1) + " m") +
           (gauge_mm == kStandardGauge_mm ? "" : ", gauge " + NumberText(gauge_mm) + " mm"));
+  if (radius_m < kLeastWidenedRadius_m) {
+    text +=
+        ReportLine("", "remark: norms have no clear space of curves of less than " +
+                           NumberText(kLeastWidenedRadius_m) + " m; what stands in it is a guess");
+  }
   if (jumps.empty()) return text;
   text += JumpsText(jumps, "curvature", "curvature jump");
   text += JumpsText(jumps, "gradient", "gradient step");
@@ -248,6 +254,14 @@ std::string VehicleText(const std::string& track, const VehicleWay& way, const S
   return text + ReportLine("", way.track_end ? "reaches the end of its track " +
                                                    WayPointText(*way.track_end, scan)
                                              : "never reaches the end of its track");
+}
+
+std::string RideText(const VehicleSpec& vehicle) {
+  const bool moves = std::ranges::any_of(
+      vehicle.motion.profile, [](const SpeedPoint& point) { return point.speed_mps > 0.0; });
+  const bool has_springs = !vehicle.consist.empty() || vehicle.pivot_distance_m > 0.0;
+  if (!moves || !has_springs || vehicle.ride) return "";
+  return ReportLine("", "remark: it has no ride (vehicle.ride): neither track nor brakes shake it");
 }
 
 std::string GaugeText(const std::vector<GaugeEntry>& entries) {

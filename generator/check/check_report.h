@@ -80,6 +80,9 @@ struct VehicleWay {
                                       const VehicleWay& way,
                                       const ScanSpec& scan);
 
+/// A remark on a vehicle that moves as if it had no springs; empty for all others.
+[[nodiscard]] std::string RideText(const VehicleSpec& vehicle);
+
 [[nodiscard]] std::string SceneText(const SceneAudit& audit);
 /// Which models of plants are traced at which distances.
 [[nodiscard]] std::string DetailText(const DetailAudit& audit, const LabelTable& labels);

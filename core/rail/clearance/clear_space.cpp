@@ -79,11 +79,30 @@ GaugeClearance ClearanceOf(const std::vector<GaugePart>& gauge,
 }
 
 double CurveWidening_m(double curvature_per_m, double side) {
-  constexpr double kTight_per_m = 1.0 / 250.0;
-  const double bend_per_m = std::abs(curvature_per_m);
-  if (bend_per_m <= kTight_per_m) return 3.75 * bend_per_m;
-  const bool is_inside = curvature_per_m * side > 0.0;
-  return is_inside ? 50.0 * bend_per_m - 0.185 : 60.0 * bend_per_m - 0.225;
+  constexpr double kTight_m = 250.0;
+  constexpr double kFormulasEnd_m = 150.0;
+  constexpr double kBend_m = 120.0;  // Of the table.
+  constexpr double kAtTight_m = 3.75 / kTight_m;
+  struct Side {
+    double per_bend_m2, less_m, at_bend_m, at_end_m;
+  };
+  constexpr Side kInside{50.0, 0.185, 0.335 + kAtTight_m, 0.530 + kAtTight_m};
+  constexpr Side kOutside{60.0, 0.225, 0.365 + kAtTight_m, 0.570 + kAtTight_m};
+  const double radius_m = 1.0 / std::abs(curvature_per_m);  // Infinite on the straight.
+  if (radius_m >= kTight_m) return 3.75 / radius_m;
+  const Side& of = curvature_per_m * side > 0.0 ? kInside : kOutside;
+  const auto by_formula = [&](double at_m) { return of.per_bend_m2 / at_m - of.less_m; };
+  const auto between = [&](double from_m, double from, double to_m, double to) {
+    return std::lerp(from, to, (radius_m - from_m) / (to_m - from_m));
+  };
+  if (radius_m >= kFormulasEnd_m) return by_formula(radius_m);
+  if (radius_m >= kBend_m) {
+    return between(kFormulasEnd_m, by_formula(kFormulasEnd_m), kBend_m, of.at_bend_m);
+  }
+  if (radius_m >= kLeastWidenedRadius_m) {
+    return between(kBend_m, of.at_bend_m, kLeastWidenedRadius_m, of.at_end_m);
+  }
+  return of.at_end_m * kLeastWidenedRadius_m / radius_m;
 }
 
 TrackBend BendAt(const TrackCourse& track, const Alignment& alignment, double s_m) {

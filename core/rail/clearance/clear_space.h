@@ -83,12 +83,15 @@ inline constexpr std::array<HalfWidth, 11> kClearHalfWidths = {{{0.0, 0.8735},
                                                                 {4.73, 0.93}}};
 
 /// How much farther from a track's axis things stand in a curve than on the straight (EN 15273-3):
-/// 3.75 m^2 / R; in curves of less than 250 m radius 50 m^2 / R - 0.185 m inside and 60 m^2 / R -
-/// 0.225 m outside, which is the same at 250 m. The standard has these down to 150 m; they are
-/// continued below.
+/// 3.75 m^2 / R; in curves of 250 to 150 m radius 50 m^2 / R - 0.185 m inside and 60 m^2 / R -
+/// 0.225 m outside, which is the same at 250 m. Below, where that standard ends, EBO Anlage 2, 1
+/// adds to what is there at 250 m 0.335 m inside and 0.365 m outside at 120 m, 0.53 and 0.57 m at
+/// 100 m, linear between. Below 100 m neither has a figure: that of 100 m grows as 1 / R.
 /// @param curvature_per_m Left positive.
 /// @param side > 0 for what stands on the left.
 [[nodiscard]] double CurveWidening_m(double curvature_per_m, double side);
+/// The tightest curve of which norms say how much wider it is.
+inline constexpr double kLeastWidenedRadius_m = 100.0;
 
 /// What of a track makes its clear space wider.
 struct TrackBend {

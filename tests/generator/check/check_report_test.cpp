@@ -99,6 +99,20 @@ TEST(CheckReport, CallsALineStraight) {
   EXPECT_EQ(LineText(Alignment(spec), 1435.0, false), "line      300.0 m, straight\n");
 }
 
+TEST(CheckReport, RemarksOnCurvesOfWhichNoNormHasTheClearSpace) {
+  const auto remark_at = [](double radius_m) {
+    AlignmentSpec spec;
+    spec.course = AlignmentElementsSpec{{{ElementType::kArc, 100.0, radius_m}}};
+    const std::string text = LineText(Alignment(spec), 1435.0, false);
+    return text.substr(text.find('\n') + 1);
+  };
+  EXPECT_EQ(
+      remark_at(-99.0),
+      "          remark: norms have no clear space of curves of less than 100 m; what stands in "
+      "it is a guess\n");
+  EXPECT_EQ(remark_at(101.0), "");
+}
+
 TEST(CheckReport, ListsSmoothedJumpsOnlyIfAskedTo) {
   const Alignment alignment(CurveAfterAStraight());
   const std::string summary =
@@ -137,6 +151,22 @@ TEST(CheckReport, CountsFramesFromThePhaseOfTheSensor) {
             "          reaches the end of its speed profile after 0.02 s (frame 0), at s 255.00 m, "
             "and stands\n"
             "          reaches the end of its track after 1.04 s (frame 9), at s 300.00 m\n");
+}
+
+TEST(CheckReport, RemarksThatAMovingVehicleHasNoRide) {
+  VehicleSpec vehicle;
+  vehicle.motion.profile = {{0.0, {}, 0.0}};
+  EXPECT_EQ(RideText(vehicle), "") << "it stands";
+  vehicle.motion.profile.push_back({9.0, {}, 5.0});
+  EXPECT_EQ(RideText(vehicle),
+            "          remark: it has no ride (vehicle.ride): neither track nor brakes shake it\n");
+  vehicle.ride = RideSpec{};
+  EXPECT_EQ(RideText(vehicle), "");
+  vehicle.ride.reset();
+  vehicle.pivot_distance_m = 0.0;
+  EXPECT_EQ(RideText(vehicle), "") << "the sensor is on a bogie";
+  vehicle.consist.emplace_back().type = ObjectType("multiple_unit");
+  EXPECT_NE(RideText(vehicle), "") << "a train's vehicles have their own pivots";
 }
 
 TEST(CheckReport, WarnsOfCoarseWorldCoordinates) {

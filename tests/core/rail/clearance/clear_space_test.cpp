@@ -55,6 +55,15 @@ TEST(ClearSpace, IsWiderInCurvesByTheStandardsFormulas) {
   EXPECT_NEAR(CurveWidening_m(1.0 / 200.0, 1.0), 0.065, 1e-12);
   EXPECT_NEAR(CurveWidening_m(1.0 / 200.0, -1.0), 0.075, 1e-12);
   EXPECT_NEAR(CurveWidening_m(-1.0 / 200.0, -1.0), 0.065, 1e-12);
+  // Where they end, the table of the EBO goes on, which adds to what is there at 250 m.
+  EXPECT_NEAR(CurveWidening_m(1.0 / 150.0, 1.0), 50.0 / 150.0 - 0.185, 1e-12);
+  EXPECT_NEAR(CurveWidening_m(1.0 / 149.999, 1.0), 50.0 / 150.0 - 0.185, 1e-5);
+  EXPECT_NEAR(CurveWidening_m(1.0 / 149.999, -1.0), 60.0 / 150.0 - 0.225, 1e-5);
+  EXPECT_NEAR(CurveWidening_m(1.0 / 120.0, 1.0), 0.35, 1e-12);
+  EXPECT_NEAR(CurveWidening_m(-1.0 / 120.0, 1.0), 0.38, 1e-12);
+  EXPECT_NEAR(CurveWidening_m(1.0 / 110.0, 1.0), 0.5 * (0.35 + 0.545), 1e-12);
+  EXPECT_NEAR(CurveWidening_m(1.0 / 100.0, -1.0), 0.585, 1e-12);
+  EXPECT_NEAR(CurveWidening_m(1.0 / 50.0, 1.0), 2.0 * 0.545, 1e-12) << "beyond any figure";
   const std::vector<HalfWidth> outside =
       ClearSpace(ClearHalfWidths({}), std::nullopt, {1.0 / 200.0, 0.0}, -1.0);
   for (std::size_t i = 0; i < outside.size(); ++i) {
