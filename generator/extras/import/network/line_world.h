@@ -138,6 +138,8 @@ void AddSideTracks(const RailMap& map,
 
 /// Why a switch is no turnout that is on none of a world's tracks.
 inline constexpr const char* kOnNoTrack = "it lies on no track of the world";
+/// Why one at an end of a line is none.
+inline constexpr const char* kAtLinesEnd = "the line ends there";
 
 /// What ReasonAt says where nothing was left out; there is no such place.
 inline constexpr const char* kNoReason = "nothing says why";

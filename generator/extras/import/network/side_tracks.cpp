@@ -112,6 +112,10 @@ class SideTrackSearch {
         continue;
       }
       ++world_.quality.num_switches;
+      if (node.is_at_end) {
+        leave_out(kAtLinesEnd);
+        continue;
+      }
       if (!has_turnouts_) {
         leave_out("there are turnouts of " + NumberText(kStandardGauge_mm) +
                   " mm gauge only, and the line has " + NumberText(gauge_mm_) + " mm");
@@ -464,7 +468,7 @@ void AddSideTracks(const RailMap& map,
   const std::vector<SwitchNode> switches = FindSwitches(map, places, kRunStrip_m);
   std::vector<Eigen::Vector2d> crossings_m;
   for (const SwitchNode& node : switches) {
-    if (node.num_ways > 3) crossings_m.push_back(node.place_m);
+    if (node.num_ways > 3 && !node.is_at_end) crossings_m.push_back(node.place_m);
   }
   const AlignmentSpec alignment = AlignmentForCrossings(map, track, line, crossings_m);
   SideTrackSearch search(TrackNetwork(alignment, std::move(crossings_m)), line, options.sigma_m,

@@ -248,8 +248,9 @@ std::vector<SwitchNode> FindSwitches(const RailMap& map,
   for (SwitchNode node : SwitchesOf(map)) {
     const auto place = places.Of(map.nodes[node.node].place_m, farthest_m);
     constexpr double kAtEnd_m = 1.0;
-    if (!place || place->s_m < kAtEnd_m || place->s_m > places.length_m() - kAtEnd_m) continue;
+    if (!place || std::abs(place->beyond_m) > kAtEnd_m) continue;
     node.place_m = {place->s_m, place->d_m};
+    node.is_at_end = place->s_m < kAtEnd_m || place->s_m > places.length_m() - kAtEnd_m;
     switches.push_back(node);
   }
   std::ranges::stable_sort(switches, {}, [](const SwitchNode& node) { return node.place_m.x(); });

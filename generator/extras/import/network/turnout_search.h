@@ -18,13 +18,14 @@ struct SwitchNode {
   std::size_t node{};
   std::size_t num_ways{};  ///< That lead from it: 3 from a switch, 4 from a crossing or slip.
   Eigen::Vector2d place_m = Eigen::Vector2d::Zero();  ///< Chainage and offset, beside a line.
+  bool is_at_end{};  ///< Within a metre of an end of the line, where no turnout can be.
 };
 
 /// The nodes from which three ways lead or more, whether `railway=switch` or not, and those that
 /// are tagged so.
 [[nodiscard]] std::vector<SwitchNode> SwitchesOf(const RailMap& map);
 
-/// Those beside a line, by chainage.
+/// Those beside a line or a metre beyond its ends, by chainage.
 [[nodiscard]] std::vector<SwitchNode> FindSwitches(const RailMap& map,
                                                    const LinePlaces& places,
                                                    double farthest_m);

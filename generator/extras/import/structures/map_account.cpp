@@ -216,9 +216,10 @@ class PiecesAccount {
   explicit PiecesAccount(const std::vector<LineWorld>& worlds) {
     for (const LineWorld& world : worlds) {
       for (const LeftOut& one : world.left_out) {
-        const bool is_beside = one.reason == kOnNoTrack;
-        Note({one.what, one.source}, is_beside ? LedgerRank::kUnused : LedgerRank::kOfRun,
-             one.reason);
+        const LedgerRank rank = one.reason == kOnNoTrack    ? LedgerRank::kOfLine
+                                : one.reason == kAtLinesEnd ? LedgerRank::kUnused
+                                                            : LedgerRank::kOfRun;
+        Note({one.what, one.source}, rank, one.reason);
       }
       for (const MadeSwitch& one : world.switches) {
         Note({"switch", one.node}, LedgerRank::kMade, "");

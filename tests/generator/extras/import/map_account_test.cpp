@@ -86,6 +86,66 @@ TEST(MapAccount, HasTheReasonOfTheWorldThatCameNearest) {
   }
 }
 
+// Where ways leave the end of a line by 39 and 45 degrees, so that it is not followed there.
+TEST(MapAccount, KnowsTheSwitchesAtTheEndsOfALine) {
+  MadeMap map{{0.0, {}}};
+  map.AddWay({{2000.0, 0.0}, {2050.0, 40.0}}, {});
+  map.AddWay({{2000.0, 0.0}, {2040.0, -40.0}}, {});
+  map.AddWay({{0.0, 0.0}, {-50.0, 40.0}}, {});
+  map.AddWay({{0.0, 0.0}, {-40.0, -40.0}}, {});
+  map.Make();
+  EXPECT_THAT(map.Sum("switch").left_out, ElementsAre(Pair(kAtLinesEnd, 2.0)));
+  EXPECT_EQ(map.world().quality.num_switches, 2U);
+  // Another line says more of them if it goes on there, and less if they are only beside it.
+  for (const auto& [reason, counts] :
+       {std::pair{kOnNoTrack, false}, std::pair{"no turnout fits", true}}) {
+    LineWorld other = map.world();
+    for (LeftOut& thing : other.left_out) {
+      if (thing.what == "switch") thing.reason = reason;
+    }
+    for (const auto& worlds : {std::vector{map.world(), other}, std::vector{other, map.world()}}) {
+      EXPECT_THAT(SumOf(map.AccountWith(worlds), "switch").left_out,
+                  ElementsAre(Pair(counts ? reason : kAtLinesEnd, 2.0)));
+    }
+  }
+}
+
+// Two worlds have the platform's track: what one says of the platform itself is the reason,
+// whatever their order, and "no track near" only where none does.
+TEST(MapAccount, HasTheReasonOfTheWorldThatKnowsThePlatform) {
+  MadeMap map{{0.0, {}}};
+  map.AddPlatformArea(500.0, 600.0, -2.3, -2.0);
+  map.Make();
+  LineWorld silent = map.world();
+  std::erase_if(silent.left_out, [](const LeftOut& thing) { return thing.what == "platform"; });
+  const auto reasons = [&](const std::vector<LineWorld>& worlds) {
+    return SumOf(map.AccountWith(worlds), "platform").left_out;
+  };
+  const auto length_m = ::testing::DoubleNear(100.0, 1e-6);
+  const std::string no_room = "there is no room for it beside track main";
+  EXPECT_THAT(reasons({silent, map.world()}), ElementsAre(Pair(no_room, length_m)));
+  EXPECT_THAT(reasons({map.world(), silent}), ElementsAre(Pair(no_room, length_m)));
+  EXPECT_THAT(reasons({silent, silent}),
+              ElementsAre(Pair("no track of the world is 0.3 to 4.5 m from it there", length_m)));
+  // Of two that know it, the first one's.
+  LineWorld other = map.world();
+  for (LeftOut& thing : other.left_out) {
+    if (thing.what == "platform") thing.reason = "another reason";
+  }
+  EXPECT_THAT(reasons({other, map.world()}), ElementsAre(Pair("another reason", length_m)));
+  // One that has it leaves no reason, and without a world it is that of its track.
+  LineWorld with = map.world();
+  PlatformSpec platform;
+  platform.track = "main";
+  platform.side = map.south();
+  platform.begin_s_m = std::min(map.ChainageAt_m(500.0), map.ChainageAt_m(600.0));
+  platform.end_s_m = platform.begin_s_m + 100.0;
+  with.structures.push_back(platform);
+  EXPECT_THAT(reasons({map.world(), with}), ElementsAre());
+  EXPECT_THAT(reasons({}),
+              ElementsAre(Pair("its track is in no world: " + std::string(kNearNoLine), length_m)));
+}
+
 TEST(MapAccount, HasTheReasonOfTheWorldForAPlatformBesideItsTrack) {
   MadeMap map{{0.0, {}}};
   map.AddPlatformArea(500.0, 600.0, -2.3, -2.0);
