@@ -138,7 +138,8 @@ Json SchemaWriter::ObjectWithBase() const {
   schema["properties"] = properties;
   if (!required_.empty()) {
     schema.erase("required");
-    schema["anyOf"] = {{{"required", {"file"}}}, {{"required", required_}}};
+    // Anything will do: a file below the object that this one lies in may have them.
+    schema["anyOf"] = {Json::object(), {{"required", required_}}};
   }
   return schema;
 }
@@ -151,6 +152,7 @@ Json SchemaWriter::File(const std::string& title) const {
   file.exclusive_ = exclusive_;
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}};
   schema.update(file.ObjectWithBase());
+  if (!required_.empty()) schema["anyOf"][0] = {{"required", {"file"}}};
   schema["required"] = {"version"};
   return schema;
 }

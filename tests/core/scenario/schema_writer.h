@@ -32,7 +32,8 @@ class SchemaWriter final : public Archive {
 
   /// The schema of an object written in place.
   [[nodiscard]] Json PlainObject() const;
-  /// The schema of an object that may name a base file with the keys that it lacks.
+  /// The schema of an object that may have the keys that it lacks from a base file, or lie in one
+  /// that has. It names the keys that must come from somewhere, but does not insist on them.
   [[nodiscard]] Json ObjectWithBase() const;
   /// The schema of a file with that object. @param title Name of the schema in editors.
   [[nodiscard]] Json File(const std::string& title) const;
