@@ -259,6 +259,10 @@ RarePoint DrawPoint(const Proposal& proposal, std::uint64_t seed, std::uint32_t 
   return point;
 }
 
+bool IsDrawnByP(const Proposal& proposal, std::uint64_t seed, std::uint32_t index) {
+  return proposal.modes.empty() || UnitDraw(seed, index, kModeDraw) < kDefensiveShare;
+}
+
 double WeightOf(const Proposal& proposal, const RarePoint& point) {
   if (proposal.modes.empty()) return 1.0;
   double ratio = 0.0;

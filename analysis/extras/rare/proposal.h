@@ -57,6 +57,9 @@ inline constexpr double kDefensiveShare = 0.1;
                                   std::uint64_t seed,
                                   std::uint32_t index);
 
+/// Whether DrawPoint() draws this point by the share of p.
+[[nodiscard]] bool IsDrawnByP(const Proposal& proposal, std::uint64_t seed, std::uint32_t index);
+
 /// The weight p / q of a point, of those factors that change something at it: the density of all
 /// others cancels out.
 [[nodiscard]] double WeightOf(const Proposal& proposal, const RarePoint& point);

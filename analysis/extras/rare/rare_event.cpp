@@ -19,6 +19,12 @@ struct Batch {
   std::vector<std::uint32_t> indices;
 };
 
+/// q / p of the figure's proposals at the point of a trial.
+struct Densities {
+  std::array<double, 2> of_cheap{};
+  double of_pairs{};
+};
+
 // Unknown results are no failures that a search could go for.
 double SoughtScore(const RareScores& scores) {
   return std::isnan(scores.cheap) ? std::numeric_limits<double>::infinity() : scores.cheap;
@@ -61,13 +67,20 @@ class RareRunner {
         proposals_.fill({.factors = factors_});
         cheap_ = {};
         run_.num_searching = static_cast<std::uint32_t>(run_.trials.size());
-        more->num_cheap = 2 * num_pilot;
+        own_ = {};
+        more = Numbers{.num_cheap = 2 * num_pilot};
       }
       for (std::size_t i = 0; i < 2; ++i) {
         if (!TryFor(i, more->num_cheap / 2)) return std::nullopt;
       }
-      if (!Try(pair_proposal_, more->num_pairs, true, pairs_)) return std::nullopt;
+      if (!Try(pair_proposal_, more->num_pairs, true, pairs_) || !TryOwn(more->num_own)) {
+        return std::nullopt;
+      }
       run_.figure = EstimateRareFigure(Evidence());
+    }
+    run_.num_own = static_cast<std::uint32_t>(own_.indices.size());
+    for (std::uint32_t i = run_.num_searching; i < run_.trials.size(); ++i) {
+      run_.trials[i].weight = WeightAmong(run_.trials[i].is_pair, i);
     }
     return std::move(run_);
   }
@@ -76,6 +89,7 @@ class RareRunner {
   struct Numbers {
     std::uint32_t num_cheap{};
     std::uint32_t num_pairs{};
+    std::uint32_t num_own{};
   };
 
   // Of a fit that follows the trials that there are.
@@ -164,23 +178,80 @@ class RareRunner {
     return points;
   }
 
-  [[nodiscard]] WeightedTrials TrialsOf(const Batch& batch) const {
+  // Whether anything draws otherwise than p.
+  [[nodiscard]] bool HasModes() const {
+    return !pair_proposal_.modes.empty() ||
+           std::ranges::any_of(proposals_,
+                               [](const Proposal& each) { return !each.modes.empty(); });
+  }
+
+  // By how many trials of a level the point of a trial would be met, if it were all that p draws.
+  [[nodiscard]] double MetBy(bool on_pairs, std::uint32_t index) const {
+    const Densities& densities = densities_[index];
+    const auto num_of = [](const Batch& batch) {
+      return static_cast<double>(batch.indices.size());
+    };
+    const double by_own = on_pairs == settings_.has_pairs ? num_of(own_) : 0.0;
+    if (on_pairs) return by_own + num_of(pairs_) * densities.of_pairs;
+    return by_own + num_of(cheap_[0]) * densities.of_cheap[0] +
+           num_of(cheap_[1]) * densities.of_cheap[1];
+  }
+
+  // Of all laws of a level.
+  [[nodiscard]] double NumOf(bool is_pair) const {
+    std::size_t num =
+        is_pair ? pairs_.indices.size() : cheap_[0].indices.size() + cheap_[1].indices.size();
+    if (is_pair == settings_.has_pairs) num += own_.indices.size();
+    return static_cast<double>(num);
+  }
+
+  [[nodiscard]] double WeightAmong(bool on_pairs, std::uint32_t index) const {
+    return NumOf(on_pairs) / MetBy(on_pairs, index);
+  }
+
+  [[nodiscard]] WeightedTrials TrialsOf(const Batch& batch, bool is_pair) const {
     WeightedTrials trials;
     for (const std::uint32_t index : batch.indices) {
-      trials.weights.push_back(run_.trials[index].weight);
+      trials.weights.push_back(WeightAmong(is_pair, index));
       trials.scores.push_back(run_.scores[index]);
     }
     return trials;
   }
 
   [[nodiscard]] RareEvidence Evidence() const {
-    RareEvidence evidence{{TrialsOf(cheap_[0]), TrialsOf(cheap_[1])}, TrialsOf(pairs_)};
+    RareEvidence evidence{
+        {TrialsOf(cheap_[0], false), TrialsOf(cheap_[1], false)}, {TrialsOf(pairs_, true)}, Own()};
+    WeightedTrials own = TrialsOf(own_, settings_.has_pairs);
+    (settings_.has_pairs ? evidence.pairs[1] : evidence.cheap[2]) = std::move(own);
     for (std::size_t i = 0; i < 2; ++i) {
       for (const std::uint32_t index : cheap_[i].indices) {
-        evidence.cheap[i].own_weights.push_back(WeightOf(proposals_[i], run_.trials[index].point));
+        evidence.cheap[i].own_weights.push_back(1.0 / densities_[index].of_cheap[i]);
       }
     }
     return evidence;
+  }
+
+  // All trials of the figure that p has drawn on the dearest level.
+  [[nodiscard]] OwnTrials Own() const {
+    OwnTrials own;
+    if (!HasModes()) return own;
+    const auto add = [&](std::uint32_t index) {
+      own.scores.push_back(run_.scores[index]);
+      own.cheap_weights.push_back(WeightAmong(false, index));
+      if (settings_.has_pairs) own.pair_weights.push_back(WeightAmong(true, index));
+    };
+    const auto add_by_p = [&](const Proposal& proposal, const Batch& batch) {
+      for (const std::uint32_t index : batch.indices) {
+        if (IsDrawnByP(proposal, settings_.seed, index)) add(index);
+      }
+    };
+    if (settings_.has_pairs) {
+      add_by_p(pair_proposal_, pairs_);
+    } else {
+      for (std::size_t i = 0; i < 2; ++i) add_by_p(proposals_[i], cheap_[i]);
+    }
+    for (const std::uint32_t index : own_.indices) add(index);
+    return own;
   }
 
   // How many trials of a level are needed, of which so many reach the wanted error.
@@ -194,17 +265,78 @@ class RareRunner {
                      num * figure.largest_share / kWantedLargest});
   }
 
-  // Whether trials by p are fewer than what the figure still lacks: where what is no factor
+  [[nodiscard]] double Mean() const {
+    const RareFigure& figure = run_.figure;
+    const double beyond = figure.beyond.num > 0 ? figure.beyond.share.value : 0.0;
+    return figure.cheap.mean + figure.correction.mean + beyond;
+  }
+
+  // Of the trials by proposals, with what those by p add to the mean.
+  [[nodiscard]] RareLevel ByProposals(bool is_pair) const {
+    const RareFigure& figure = run_.figure;
+    RareLevel level = is_pair ? figure.correction : figure.cheap;
+    if (level.num == 0 || is_pair != settings_.has_pairs) return level;
+    const std::uint64_t num = level.num - own_.indices.size();
+    level.variance *= static_cast<double>(num) / static_cast<double>(level.num);
+    level.num = num;
+    return level;
+  }
+
+  // Of one trial by p, at the points that the proposals hardly draw.
+  [[nodiscard]] double VarianceBeyond() const {
+    const RareBeyond& beyond = run_.figure.beyond;
+    if (beyond.num == 0) return 0.0;
+    return static_cast<double>(beyond.num_more + beyond.num_fewer) /
+           static_cast<double>(beyond.num);
+  }
+
+  // Of a trial on the dearest level.
+  [[nodiscard]] double DearestCost() const {
+    return settings_.has_pairs ? settings_.pair_cost : 1.0;
+  }
+
+  // The sum over all levels of the roots of variance times cost, over the square of the wanted
+  // error.
+  [[nodiscard]] double Effort() const {
+    const double error = settings_.precision * Mean() / NormalQuantile();
+    return (std::sqrt(ByProposals(false).variance) +
+            std::sqrt(ByProposals(true).variance * DearestCost()) +
+            std::sqrt(VarianceBeyond() * DearestCost())) /
+           (error * error);
+  }
+
+  // How many trials by p there should be.
+  [[nodiscard]] double WantedOwn() const {
+    // That of which none fails say that at most 3.7 / n do; that of failures as frequent as 3 / n
+    // one is met, with 95 %.
+    constexpr double kNoneOfMany = 3.689;
+    constexpr double kRuleOfThree = 3.0;
+    if (!HasModes()) return 0.0;
+    if (settings_.unseen) return std::ceil(kRuleOfThree / *settings_.unseen);
+    const auto num_own = static_cast<double>(own_.indices.size());
+    const auto num_pairs = static_cast<double>(pairs_.indices.size());
+    const double others =
+        (static_cast<double>(run_.trials.size()) - num_own - num_pairs) / DearestCost() + num_pairs;
+    const double num_by_others = static_cast<double>(run_.figure.beyond.num) - num_own;
+    if (Mean() <= 0.0) return num_by_others + others;
+    const double for_error = std::sqrt(VarianceBeyond() / DearestCost()) * Effort();
+    return std::min(std::max(for_error, kNoneOfMany / (settings_.precision * Mean())),
+                    num_by_others + others);
+  }
+
+  // Whether trials by p alone are fewer than what the figure still lacks: where what is no factor
   // decides, no proposal helps.
   [[nodiscard]] bool PlainIsCheaper() const {
-    const RareLevel& level = run_.figure.cheap;
+    const RareLevel level = ByProposals(false);
+    const double mean = Mean();
     const bool has_room = run_.trials.size() + settings_.num_per_stage <= settings_.most_trials;
     if (settings_.has_pairs || run_.figure.is_plain || !has_room) return false;
-    if (level.mean <= 0.0) return true;
-    const double error = settings_.precision * level.mean / NormalQuantile();
-    const double lacking =
-        WantedOf(level, level.variance / (error * error)) - static_cast<double>(level.num);
-    return level.mean * (1.0 - level.mean) / (error * error) < lacking;
+    if (level.mean <= 0.0) return HasMetFailures();
+    const double error = settings_.precision * mean / NormalQuantile();
+    const double lacking = WantedOf(level, std::sqrt(level.variance) * Effort()) -
+                           static_cast<double>(level.num) +
+                           std::max(WantedOwn() - static_cast<double>(run_.figure.beyond.num), 0.0);
+    return mean * (1.0 - mean) / (error * error) < lacking;
   }
 
   [[nodiscard]] bool HasMetFailures() const {
@@ -212,45 +344,48 @@ class RareRunner {
                                [](const RareScores& scores) { return scores.cheap < 0.0; });
   }
 
-  // How many more are needed; nothing if there are enough, or if more would not help.
-  [[nodiscard]] std::optional<Numbers> MoreTrials() const {
+  // How many more trials of a level are needed.
+  [[nodiscard]] std::uint32_t MoreOf(const RareLevel& level, double cost) const {
     constexpr double kMostGrowth = 4.0;  // A pilot may err.
     constexpr double kEnough = 1.0 / 1.05;
+    if (run_.figure.cheap.mean <= 0.0 || Mean() <= 0.0 || level.num == 0) return 0;
+    const auto num = static_cast<double>(level.num);
+    const double wanted = WantedOf(level, std::sqrt(level.variance / cost) * Effort());
+    if (kEnough * wanted <= num) return 0;
+    return static_cast<std::uint32_t>(
+        std::ceil(std::min({wanted - num, (kMostGrowth - 1.0) * num, Room()})));
+  }
+
+  [[nodiscard]] double Room() const {
+    return static_cast<double>(settings_.most_trials) - static_cast<double>(run_.trials.size());
+  }
+
+  // How many more are needed; nothing if there are enough, or if more would not help.
+  [[nodiscard]] std::optional<Numbers> MoreTrials() const {
     const RareFigure& figure = run_.figure;
-    const double mean = figure.cheap.mean + figure.correction.mean;
-    const auto num_trials = static_cast<std::uint32_t>(run_.trials.size());
-    if (num_trials >= settings_.most_trials) return std::nullopt;
+    if (Room() <= 0.0) return std::nullopt;
+    Numbers more{MoreOf(ByProposals(false), 1.0), MoreOf(ByProposals(true), DearestCost())};
     if (figure.cheap.mean <= 0.0 && !settings_.has_pairs && HasMetFailures()) {
-      const auto more =
-          static_cast<std::uint32_t>((kMostGrowth - 1.0) * static_cast<double>(figure.cheap.num));
-      const std::uint32_t num = std::min(more, settings_.most_trials - num_trials);
-      return num < 2 ? std::nullopt : std::optional(Numbers{num - num % 2, 0});
+      more.num_cheap =
+          static_cast<std::uint32_t>(std::min(3.0 * static_cast<double>(figure.cheap.num), Room()));
     }
-    if (figure.cheap.mean <= 0.0 || mean <= 0.0) return std::nullopt;
-    const double error = settings_.precision * mean / NormalQuantile();
-    const double pair_cost = settings_.has_pairs ? settings_.pair_cost : 0.0;
-    const double sum =
-        std::sqrt(figure.cheap.variance) + std::sqrt(figure.correction.variance * pair_cost);
-    const auto more_of = [&](const RareLevel& level, double cost) {
-      const auto num = static_cast<double>(level.num);
-      const double wanted =
-          WantedOf(level, std::sqrt(level.variance / std::max(cost, 1.0)) * sum / (error * error));
-      if (kEnough * wanted <= num) return 0U;
-      const double most = std::min((kMostGrowth - 1.0) * num,
-                                   static_cast<double>(settings_.most_trials - num_trials));
-      return static_cast<std::uint32_t>(std::ceil(std::clamp(wanted - num, 0.0, most)));
-    };
-    Numbers more{more_of(figure.cheap, 1.0), 0};
     more.num_cheap += more.num_cheap % 2;
-    if (settings_.has_pairs) more.num_pairs = more_of(figure.correction, pair_cost);
-    const std::uint64_t room = settings_.most_trials - num_trials;
-    const std::uint64_t wanted = std::uint64_t{more.num_cheap} + more.num_pairs;
+    more.num_own = static_cast<std::uint32_t>(
+        std::clamp(WantedOwn() - static_cast<double>(figure.beyond.num), 0.0, Room()));
+    // What is asked for by --unseen comes first.
+    double room = Room();
+    if (settings_.unseen) room -= more.num_own;
+    const double wanted = static_cast<double>(more.num_cheap) + more.num_pairs +
+                          (settings_.unseen ? 0 : more.num_own);
     if (wanted > room) {
-      more.num_cheap = static_cast<std::uint32_t>(more.num_cheap * room / wanted);
-      more.num_pairs = static_cast<std::uint32_t>(more.num_pairs * room / wanted);
+      const auto part = [&](std::uint32_t num) {
+        return static_cast<std::uint32_t>(num * room / wanted);
+      };
+      more = {part(more.num_cheap), part(more.num_pairs),
+              settings_.unseen ? more.num_own : part(more.num_own)};
       more.num_cheap -= more.num_cheap % 2;
     }
-    if (more.num_cheap + more.num_pairs == 0) return std::nullopt;
+    if (more.num_cheap + more.num_pairs + more.num_own == 0) return std::nullopt;
     return more;
   }
 
@@ -265,6 +400,11 @@ class RareRunner {
     return true;
   }
 
+  // Draws and tries more of the trials by p. Returns false if it was stopped.
+  bool TryOwn(std::uint32_t num) {
+    return Try({.factors = factors_}, num, settings_.has_pairs, own_);
+  }
+
   // Draws and tries points. Returns false if it was stopped.
   bool Try(const Proposal& proposal, std::uint32_t num, bool is_pair, Batch& batch) {
     if (num == 0) return true;
@@ -273,6 +413,9 @@ class RareRunner {
       const auto index = static_cast<std::uint32_t>(run_.trials.size()) + i;
       RareTrial trial{.index = index, .point = DrawPoint(proposal, settings_.seed, index)};
       trial.weight = WeightOf(proposal, trial.point);
+      densities_.push_back(
+          {{1.0 / WeightOf(proposals_[0], trial.point), 1.0 / WeightOf(proposals_[1], trial.point)},
+           1.0 / WeightOf(pair_proposal_, trial.point)});
       trial.is_pair = is_pair;
       trials.push_back(std::move(trial));
       batch.indices.push_back(index);
@@ -291,6 +434,8 @@ class RareRunner {
   Proposal pair_proposal_;
   std::array<Batch, 2> cheap_;
   Batch pairs_;
+  Batch own_;
+  std::vector<Densities> densities_;  ///< Of all trials.
   RareRun run_;
 };
 

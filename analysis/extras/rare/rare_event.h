@@ -19,9 +19,9 @@ struct RareScores {
   double dear = std::numeric_limits<double>::quiet_NaN();  ///< Of pairs only.
 };
 
-/// Trials that were drawn by one proposal.
+/// Trials that were drawn by one law.
 struct WeightedTrials {
-  std::vector<double> weights{};  ///< p / q; of cheap trials, q is the mean of both proposals.
+  std::vector<double> weights{};  ///< p / q, where q is the mean of all laws of the level.
   std::vector<RareScores> scores{};
   std::vector<double> own_weights{};  ///< Of cheap trials, p / q by the proposal that drew them.
 };
@@ -33,19 +33,41 @@ struct RareLevel {
   double variance{};  ///< Of one trial.
 };
 
+/// Trials that p has drawn, on the dearest level, with the weights that their points have on both.
+struct OwnTrials {
+  std::vector<RareScores> scores{};
+  std::vector<double> cheap_weights{};
+  std::vector<double> pair_weights{};  ///< Empty with one level only.
+};
+
 /// All that a figure rests on.
 struct RareEvidence {
-  /// By two proposals that were found independently, as many by each.
-  std::array<WeightedTrials, 2> cheap{};
-  WeightedTrials pairs{};  ///< Tried on both levels; empty with one level only.
+  /// By two proposals that were found independently, as many by each, and by p.
+  std::array<WeightedTrials, 3> cheap{};
+  /// Tried on both levels, by a third proposal and by p; empty with one level only.
+  std::array<WeightedTrials, 2> pairs{};
+  /// All of these that p has drawn, also as its share in a proposal; empty if p has drawn all.
+  OwnTrials own{};
+};
+
+/// What trials by p say of the points that no proposal draws as often.
+struct RareBeyond {
+  std::uint64_t num{};        ///< Of all trials by p.
+  std::uint64_t num_more{};   ///< That add to the probability: failures, on the level that decides.
+  std::uint64_t num_fewer{};  ///< Of which the dear level says that they are none.
+  /// (more - fewer) / num, with the exact intervals of both. What was not met at all is within it.
+  Estimate share{};
 };
 
 /// The probability of failure.
 struct RareFigure {
   Estimate probability{};  ///< Not enough where it is refused.
   std::string refusal{};   ///< Why there is no figure; empty if there is one.
+  Estimate met{};          ///< Its part at points that the proposals draw; as above.
+  RareBeyond beyond{};     ///< The rest.
   /// Upper 95 % bound where nothing failed, by the trials that p had drawn; else NaN.
   double at_most = std::numeric_limits<double>::quiet_NaN();
+  // Of the part that was met.
   double effective{};                     ///< Number of equal weights with as much error.
   double largest_share{};                 ///< Of one trial in the sum of all weights that count.
   std::array<Estimate, 2> by_proposal{};  ///< On the cheap level, by each alone.
@@ -56,15 +78,23 @@ struct RareFigure {
   [[nodiscard]] bool is_known() const { return refusal.empty(); }
 };
 
-/// Estimates the probability of failure on the dear level, mean(w 1(cheap fails)) over the cheap
-/// trials plus mean(w (1(dear fails) - 1(cheap fails))) over the pairs (two levels; Giles 2015,
-/// Acta Numerica 24), with Fay and Feuer's interval (1997, Statistics in Medicine 16) of the
-/// variances of both means, whose upper end allows for one more failure of the largest weight of
-/// those met (theirs: of all), and is no nearer than that of a normal law. The variance of the
-/// correction counts two disagreements more than were seen, so that it is not 0 where none was
-/// (rule of three). A cheap trial is weighed as one that either proposal may have drawn (the
-/// balance heuristic; Veach and Guibas 1995), so that a kind of failure that one of them has missed
-/// has no great weights.
+/// Estimates the probability of failure on the dear level in two parts.
+///
+/// At points that all laws together draw at least twice as often as p does, it is mean(w 1(cheap
+/// fails)) over the cheap trials plus mean(w (1(dear fails) - 1(cheap fails))) over the pairs (two
+/// levels; Giles 2015, Acta Numerica 24), with Fay and Feuer's interval (1997, Statistics in
+/// Medicine 16) of the variances of both means, whose upper end allows for one more failure of the
+/// largest weight of those met (theirs: of all), and is no nearer than that of a normal law. The
+/// variance of the correction counts two disagreements more than were seen, so that it is not 0
+/// where none was (rule of three). A trial is weighed as one that any of the level's laws may have
+/// drawn (the balance heuristic; Veach and Guibas 1995), so that a kind of failure that one of them
+/// has missed has no great weights.
+///
+/// At all other points, it is the share of the trials by p that failed there, with Clopper and
+/// Pearson's interval (1934, Biometrika 26): of none in n, up to 3.7 / n. A kind of failure that
+/// gives the searches no slope to follow is met there, or is within that interval. The intervals of
+/// both parts are joined by the squares of their distances (Donner and Zou 2012, Statistical
+/// Methods in Medical Research 21).
 ///
 /// Of trials that p has drawn, on one level, it is the share that failed, with Wilson's interval.
 /// Otherwise there is no figure if the intervals of the two proposals do not overlap, if
@@ -91,8 +121,11 @@ using RareExperiment =
 
 struct RareSettings {
   std::uint64_t seed{};
-  std::uint32_t num_per_stage = 300;   ///< Trials of each stage; an eighth of most_trials at most.
-  double precision = 0.3;              ///< Half the interval, as a share of the probability.
+  std::uint32_t num_per_stage = 300;  ///< Trials of each stage; an eighth of most_trials at most.
+  double precision = 0.3;             ///< Half the interval, as a share of the probability.
+  /// As often as what fails must, so as to be met by one of the trials by p with 95 %; at least 12
+  /// / most_trials. Absent: as is worth it.
+  std::optional<double> unseen{};
   std::uint32_t most_trials = 20'000;  ///< After which no more are added.
   bool has_pairs{};                    ///< Whether there is a dear level.
   double pair_cost = 3.0;              ///< Of a pair, in trials on the cheap level.
@@ -104,6 +137,7 @@ struct RareRun {
   std::vector<RareTrial> trials{};
   std::vector<RareScores> scores{};
   std::uint32_t num_searching{};  ///< Of the trials, the first ones, which looked for the failures.
+  std::uint32_t num_own{};        ///< Of the others, those by p for what the proposals miss.
 };
 
 /// Estimates a small probability of failure by importance sampling over the factors.
@@ -114,7 +148,9 @@ struct RareRun {
 /// that tenth fails (cross-entropy; Rubinstein and Kroese 2004). Trials by both proposals, and
 /// pairs by a third one that has been fitted to trials with scores near 0, give the figure. Their
 /// numbers go by sqrt(variance / cost) of a pilot (Giles 2015), until the interval has the width
-/// asked for. On one level, p draws all anew where that takes fewer trials, or where failures that
+/// asked for. Trials by p, on the dearest level, then seek what the proposals miss: 3 / unseen of
+/// them, or until what they cannot exclude is within that width, but at most for the time of all
+/// others. On one level, p draws all anew where that takes fewer trials, or where failures that
 /// the searches met are not met again. The result is a function of the arguments and scores alone.
 /// @return Nothing if the experiment was stopped.
 [[nodiscard]] std::optional<RareRun> RunRareEvent(const std::vector<RareFactor>& factors,

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <map>
+#include <sstream>
 #include <utility>
 
 #include "analysis/extras/study/rare_study.h"
@@ -150,12 +152,18 @@ Table LevelsTable(const RareStudy& study) {
   if (run.num_searching > 0) add("search", {run.num_searching, unknown, unknown}, false);
   add("figure", run.figure.cheap, false);
   if (run.figure.correction.num > 0) add("correction", run.figure.correction, true);
+  if (const RareBeyond& beyond = run.figure.beyond; beyond.num > 0) {
+    const auto met = static_cast<double>(beyond.num_more + beyond.num_fewer);
+    add("as drawn", {beyond.num, beyond.share.value, met / static_cast<double>(beyond.num)},
+        run.figure.correction.num > 0);
+  }
   return table;
 }
 
 Table CostTable(const RareStudy& study) {
   const RareFigure& figure = study.run.figure;
-  const auto num_pairs = static_cast<double>(figure.correction.num);
+  const auto num_pairs =
+      static_cast<double>(std::ranges::count_if(study.run.trials, &RareTrial::is_pair));
   const auto num_cheap = static_cast<double>(study.run.trials.size()) - num_pairs;
   const auto [cheap_s, pair_s] = study.approach_s;
   const double spent_s = num_cheap * cheap_s + (num_pairs > 0.0 ? num_pairs * pair_s : 0.0);
@@ -167,12 +175,24 @@ Table CostTable(const RareStudy& study) {
   return table;
 }
 
+// By the rule of three, with two digits.
+std::string RarestText(const RareBeyond& beyond) {
+  if (beyond.num == 0) return "";
+  std::ostringstream text;
+  text << std::setprecision(2) << 3.0 / static_cast<double>(beyond.num);
+  return text.str();
+}
+
 Section FigureSection(const RareStudy& study) {
   const RareFigure& figure = study.run.figure;
-  Section section =
-      SectionOf(kStudyWords, "rare", {{"rung", study.dear}, {"refusal", figure.refusal}});
+  Section section = SectionOf(kStudyWords, "rare",
+                              {{"rung", study.dear},
+                               {"refusal", figure.refusal},
+                               {"own", figure.beyond.num > 0 ? NumberText(figure.beyond.num) : ""},
+                               {"rarest", RarestText(figure.beyond)}});
   Table table = TableOf(kStudyWords, "rare");
-  table.rows = {{figure.probability, figure.at_most, figure.effective, 100.0 * figure.largest_share,
+  table.rows = {{figure.probability, figure.met, figure.beyond.share, figure.beyond.num,
+                 figure.at_most, figure.effective, 100.0 * figure.largest_share,
                  figure.by_proposal[0], figure.by_proposal[1]}};
   section.tables = {std::move(table), LevelsTable(study)};
   if (figure.is_known()) {

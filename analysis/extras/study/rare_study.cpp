@@ -239,6 +239,7 @@ std::optional<RareStudy> RunRareStudy(const StudySpec& study,
   result.identity.rare = "cheap " + result.cheap + ", per_stage " + NumberText(spec.per_stage) +
                          ", precision " + NumberText(spec.precision) + ", most_approaches " +
                          NumberText(spec.most_approaches);
+  if (spec.unseen) result.identity.rare += ", unseen " + NumberText(*spec.unseen);
   std::vector<RareFactor> laws;
   for (const RecipeFactor& factor : result.factors) laws.push_back(factor.law);
   const double cheap_cost = CostOfRung(ValueNamed<Fidelity>(result.cheap).value());
@@ -247,6 +248,7 @@ std::optional<RareStudy> RunRareStudy(const StudySpec& study,
                           {.seed = drawer.recipe().seed,
                            .num_per_stage = spec.per_stage,
                            .precision = spec.precision,
+                           .unseen = spec.unseen,
                            .most_trials = spec.most_approaches,
                            .has_pairs = result.cheap != result.dear,
                            .pair_cost = (CostOfRung(dear) + cheap_cost) / cheap_cost},

@@ -48,6 +48,13 @@ void Describe(Archive& a, RareSpec& s) {
              Within(0.05, 1));
   a.Optional("most_approaches", s.most_approaches, "After which no more are added.",
              Within(1000, 1e7));
+  a.Optional(
+      "unseen", s.unseen,
+      "How rare a kind of failure may be that is met although no search leads to it; absent = "
+      "as is worth it.",
+      Within(1e-6, kMostUnseen));
+  a.Ensure({"unseen"}, !s.unseen || *s.unseen >= LeastUnseen(s),
+           "must be at least 12 / most_approaches");
   a.Ensure({"per_stage"}, s.per_stage <= s.most_approaches / 8,
            "must be at most an eighth of most_approaches");
 }

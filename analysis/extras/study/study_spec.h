@@ -18,7 +18,15 @@ struct RareSpec {
   std::uint32_t per_stage = 300;
   double precision = 0.3;
   std::uint32_t most_approaches = 20'000;
+  /// How rare a kind of failure may be that is met although no search leads to it (RareSettings).
+  std::optional<double> unseen{};
 };
+
+inline constexpr double kMostUnseen = 0.1;
+/// The least that RareSpec::unseen may be: 3 / unseen approaches are at most a quarter of all.
+[[nodiscard]] inline double LeastUnseen(const RareSpec& rare) {
+  return 12.0 / rare.most_approaches;
+}
 
 /// A study: what is asked of the scenarios of a recipe (docs/study.md).
 struct StudySpec {

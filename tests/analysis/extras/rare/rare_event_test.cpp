@@ -98,6 +98,12 @@ TEST(RareEvent, CoversAProbabilityOfTwoModesInTenDimensions) {
   EXPECT_NEAR(coverage.mean, probability, 0.04 * probability);
 }
 
+// A number in the middle of its range, of which a share fails whatever all else is: no score leads
+// there.
+bool IsInIsland(double score, double share) {
+  return std::abs(NormalTail(score) - 0.3) < 0.5 * share;
+}
+
 /// Scores of one level, of the point and the number of a trial.
 RareExperiment OneLevel(const std::function<double(const RarePoint&, std::uint32_t)>& score) {
   return [score](const std::vector<RareTrial>& trials) {
@@ -105,6 +111,72 @@ RareExperiment OneLevel(const std::function<double(const RarePoint&, std::uint32
     for (const RareTrial& trial : trials) scores.push_back({score(trial.point, trial.index)});
     return std::optional(scores);
   };
+}
+
+constexpr double kTailThreshold = 2.8782;  // Of 0.002.
+
+TEST(RareEvent, HoldsFailuresToWhichNoScoreLeads) {
+  // By what the searches find alone, 21 and 55 % of the intervals cover. Those that do not rule out
+  // what was not met cover more than they must.
+  constexpr std::uint32_t kNum = 100;
+  const double probability = 1.0 - (1.0 - 0.002) * (1.0 - 0.001);
+  const auto island = [](const RarePoint& point, std::uint32_t) {
+    return IsInIsland(point[1], 0.001) ? -1.0 : kTailThreshold - point[0];
+  };
+  const auto option = [](const RarePoint& point, std::uint32_t) {
+    return point[1] == 1.0 ? -1.0 : kTailThreshold - point[0];
+  };
+  const RareCoverage of_island =
+      CoverageOf(std::vector<RareFactor>(3), {}, OneLevel(island), probability, kNum);
+  const RareCoverage of_option = CoverageOf({{}, {.probabilities = {0.999, 0.001}}, {}}, {},
+                                            OneLevel(option), probability, kNum);
+  for (const RareCoverage& coverage : {of_island, of_option}) {
+    EXPECT_GE(coverage.num_known, 0.9 * kNum);
+    EXPECT_GE(coverage.num_covering, 0.93 * coverage.num_known);
+    EXPECT_NEAR(coverage.mean, probability, 2e-4);
+    EXPECT_LE(coverage.trials, 9000.0 * coverage.num_known);
+  }
+}
+
+TEST(RareEvent, HoldsFailuresOfTheDearLevelAlone) {
+  // Of pairs by a proposal alone, none covers, and 60 of 100 seeds have a figure.
+  constexpr std::uint32_t kNum = 100;
+  const double probability = 1.0 - (1.0 - 0.002) * (1.0 - 0.004);
+  const RareExperiment experiment = [](const std::vector<RareTrial>& trials) {
+    std::vector<RareScores> scores;
+    for (const RareTrial& trial : trials) {
+      scores.push_back({kTailThreshold - trial.point[0]});
+      if (!trial.is_pair) continue;
+      scores.back().dear = IsInIsland(trial.point[1], 0.004) ? -1.0 : scores.back().cheap;
+    }
+    return std::optional(scores);
+  };
+  const RareCoverage coverage =
+      CoverageOf(std::vector<RareFactor>(3), {.has_pairs = true}, experiment, probability, kNum);
+  EXPECT_GE(coverage.num_known, 0.9 * kNum);
+  EXPECT_GE(coverage.num_covering, 0.93 * coverage.num_known);
+  EXPECT_NEAR(coverage.mean, probability, 4e-4);
+}
+
+TEST(RareEvent, TriesAsManyByTheirOwnLawAsAreAskedFor) {
+  const auto score = [](const RarePoint& point, std::uint32_t) {
+    return kTailThreshold - point[0];
+  };
+  for (const double unseen : {3e-3, 1e-3}) {
+    const auto run =
+        RunRareEvent(std::vector<RareFactor>(3), {.seed = 5, .unseen = unseen}, OneLevel(score));
+    const RareFigure& figure = run->figure;
+    ASSERT_TRUE(figure.is_known()) << figure.refusal;
+    EXPECT_GE(static_cast<double>(figure.beyond.num), 3.0 / unseen);
+    EXPECT_LE(static_cast<double>(figure.beyond.num), 3.0 / unseen + 200.0);
+    EXPECT_EQ(figure.beyond.num_more, 0U);
+    // Clopper and Pearson's end of none in n: 1 - 0.025^(1 / n).
+    const double none = 1.0 - std::pow(0.025, 1.0 / static_cast<double>(figure.beyond.num));
+    EXPECT_NEAR(figure.beyond.share.high, none, 1e-9);
+    EXPECT_NEAR(figure.probability.high - figure.probability.value,
+                std::hypot(figure.met.high - figure.met.value, none), 1e-9);
+    EXPECT_EQ(figure.probability.low, figure.met.low);
+  }
 }
 
 TEST(RareEvent, CoversAProbabilityOfWhichASearchMayMissHalf) {
@@ -120,13 +192,13 @@ TEST(RareEvent, CoversAProbabilityOfWhichASearchMayMissHalf) {
   EXPECT_GE(coverage.num_known, 9 * kNumEstimates / 10);
   EXPECT_GE(coverage.num_covering, 0.93 * coverage.num_known);
   EXPECT_NEAR(coverage.mean, 1.0 - passes * passes, 3e-4);
-  EXPECT_LE(2.0 * coverage.trials, coverage.plain_trials);
+  EXPECT_LE(1.5 * coverage.trials, coverage.plain_trials);
 }
 
 TEST(RareEvent, CoversAProbabilityWhereNoiseDecidesToo) {
   // The noise makes some trials fail that no proposal favours: great weights, of which the upper
   // end of the interval must know; with it as great as the factor, no proposal may help at all.
-  constexpr std::uint32_t kNum = 400;
+  constexpr std::uint32_t kNum = 200;
   for (const double noise : {0.5, 1.0}) {
     const double threshold = 2.3263 * std::hypot(1.0, noise);  // P = 0.01.
     const auto score = [&](const RarePoint& point, std::uint32_t index) {
@@ -241,8 +313,9 @@ TEST(RareEvent, BoundsWhatNeverFailed) {
   };
   const auto run = RunRareEvent(std::vector<RareFactor>(2), {.num_per_stage = 200}, experiment);
   EXPECT_EQ(run->figure.refusal, "nothing failed");
-  // Of the 200 trials that count, p has drawn a tenth; the exact two-sided bound of none is 3.69.
-  EXPECT_NEAR(run->figure.at_most, 3.689 / 20.0, 1e-3);
+  // As many as all others; the exact two-sided bound of none is 3.69.
+  EXPECT_GE(2 * run->figure.beyond.num, run->trials.size());
+  EXPECT_NEAR(run->figure.at_most, 3.689 / static_cast<double>(run->figure.beyond.num), 1e-4);
 }
 
 /// Trials of which those before `num_failed` fail on the cheap level.
@@ -274,8 +347,8 @@ TEST(RareEvent, KnowsWhereAllTrialsAreEqual) {
 
 TEST(RareEvent, HasAnUpperEndWhereTheLevelsNearlyCancel) {
   const WeightedTrials cheap = Trials(3000, 1500, 0.02);
-  RareEvidence evidence{.cheap = {cheap, cheap}, .pairs = Trials(3000, 1499, 0.02)};
-  for (RareScores& scores : evidence.pairs.scores) scores.dear = 1.0;
+  RareEvidence evidence{.cheap = {cheap, cheap}, .pairs = {Trials(3000, 1499, 0.02)}};
+  for (RareScores& scores : evidence.pairs[0].scores) scores.dear = 1.0;
   const RareFigure figure = EstimateRareFigure(evidence);
   ASSERT_TRUE(figure.is_known()) << figure.refusal;
   EXPECT_NEAR(figure.probability.value, 0.02 * 1.0 / 3000.0, 1e-9);
@@ -287,14 +360,15 @@ TEST(RareEvent, HasAnUpperEndWhereTheLevelsNearlyCancel) {
 TEST(RareEvent, RefusesWhatIsNotKnownOnTheDearLevel) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   RareEvidence evidence{.cheap = {Trials(200, 100, 0.1), Trials(200, 100, 0.1)},
-                        .pairs = Trials(200, 100, 0.1)};
-  for (RareScores& scores : evidence.pairs.scores) scores.dear = scores.cheap;
+                        .pairs = {Trials(200, 100, 0.1)}};
+  std::vector<RareScores>& pairs = evidence.pairs[0].scores;
+  for (RareScores& scores : pairs) scores.dear = scores.cheap;
   EXPECT_TRUE(EstimateRareFigure(evidence).is_known());
-  for (std::size_t i = 0; i < 20; ++i) evidence.pairs.scores[i].dear = kUnknown;
+  for (std::size_t i = 0; i < 20; ++i) pairs[i].dear = kUnknown;
   EXPECT_THAT(EstimateRareFigure(evidence).refusal,
               testing::StartsWith("too many trials say neither yes nor no"));
   // What the cheap level does not know is of no matter where the dear one does.
-  for (RareScores& scores : evidence.pairs.scores) scores.dear = scores.cheap;
+  for (RareScores& scores : pairs) scores.dear = scores.cheap;
   for (std::size_t i = 0; i < 20; ++i) evidence.cheap[0].scores[199 - i].cheap = kUnknown;
   EXPECT_TRUE(EstimateRareFigure(evidence).is_known());
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "core/base/input_file.h"
@@ -97,6 +98,15 @@ TEST_F(RareStudyTest, GivesTheSameLinesOnAnyNumberOfThreadsAndAfterAStop) {
   EXPECT_EQ(Lines("begun"), Lines("one"));
   // A plain study does not go on with it.
   EXPECT_THROW((void)RunStudyIn(file, {.directory = Path("one"), .num_threads = 1}), InputError);
+}
+
+TEST_F(RareStudyTest, RefusesMoreUnseenApproachesThanThereMayBe) {
+  const auto file = Write();
+  nlohmann::json study = nlohmann::json::parse(ReadFileWhole(file));
+  study["rare"] = {{"most_approaches", 4000}, {"unseen", 1e-3}};
+  std::ofstream(file) << study;
+  EXPECT_EQ(MessageOf([&] { (void)ReadStudy(file); }),
+            file.string() + ": /rare/unseen: must be at least 12 / most_approaches (got 0.001)");
 }
 
 TEST_F(RareStudyTest, RefusesRecipesOfSeveralRungs) {
