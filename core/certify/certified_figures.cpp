@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "core/base/text.h"
+#include "core/certify/certifier.h"
 #include "core/scenario/archive.h"
 
 namespace railcast {
@@ -65,6 +66,34 @@ std::string ShareText(const CertifiedFigure& figure) {
   const auto percent = [](double share) { return RoundedText(100.0 * share, 1); };
   return percent(figure.value) + " % (" + percent(figure.low) + " to " +
          percent(figure.high.value_or(1.0)) + ")";
+}
+
+// Up to one significant digit: 30 of 21.7.
+double RoundedUp(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)));
+  return std::ceil(value / unit * (1.0 - 1e-9)) * unit;
+}
+
+// What would tell the share of missed echoes to five points, if this certificate does not; an
+// interval narrows with the root of the number of firings.
+std::string WhatWouldTell(const RunCertificate& certificate) {
+  constexpr double kWanted = 0.05;         // Half an interval.
+  constexpr double kEchoesWanted = 400.0;  // Of which an unknown share is known as well.
+  if (!(certificate.cost_share > 0.0) || certificate.firings == 0) return "";
+  const auto& missed = certificate.all.missed;
+  const double half = missed ? 0.5 * (missed->high.value_or(1.0) - missed->low) : 1.0;
+  if (half <= kWanted) return "";
+  const auto drawn = static_cast<double>(certificate.drawn);
+  const double times =
+      missed ? std::pow(half / kWanted, 2)
+             : kEchoesWanted / std::max(static_cast<double>(certificate.all.echoes), 1.0);
+  const double percent = RoundedUp(100.0 * times * certificate.cost_share);
+  if (times * std::max(drawn, 1.0) > static_cast<double>(certificate.firings) ||
+      percent > kMostCertifiedPercent) {
+    return "  only more frames would tell the share of missed echoes to +-5 points\n";
+  }
+  return "  --certify " + NumberText(percent) +
+         "% would tell the share of missed echoes to +-5 points\n";
 }
 
 std::string MillimetresText(const CertifiedFigure& figure) {
@@ -140,7 +169,9 @@ void CertificateSums::Add(const FrameCertificate& frame) {
   if (side == Side::kBeyond) ++num_beyond_;
 }
 
-CertifiedPart CertificateSums::PartOf(std::string name, const IsOf& is_of) const {
+CertifiedPart CertificateSums::PartOf(std::string name,
+                                      const IsOf& is_of,
+                                      std::uint64_t least) const {
   PerFiring numbers(drawn_.size());
   std::vector<std::pair<std::size_t, double>> range_errors_m;
   std::vector<std::pair<std::size_t, double>> power_errors;
@@ -167,18 +198,17 @@ CertifiedPart CertificateSums::PartOf(std::string name, const IsOf& is_of) const
       if (echo.power) power_errors.emplace_back(i, std::abs(*echo.power - 1.0));
     }
   }
-  constexpr std::uint64_t kLeast = CertifiedPart::kLeastEchoes;
-  if (part.echoes >= kLeast)
+  if (part.echoes >= least)
     part.missed = shares_.Share(numbers.missed, numbers.Sum(numbers.missed));
-  if (num_found + num_wrong >= kLeast) {
+  if (num_found + num_wrong >= least) {
     part.wrong = shares_.Share(numbers.wrong, numbers.Sum(numbers.wrong));
   }
-  if (num_found >= kLeast) {
+  if (num_found >= least) {
     part.other_label = shares_.Share(numbers.other_label, numbers.found);
     part.range_p50_m = shares_.Quantile(range_errors_m, 0.5);
     part.range_p95_m = shares_.Quantile(range_errors_m, 0.95);
   }
-  if (power_errors.size() >= kLeast) {
+  if (power_errors.size() >= least) {
     part.power_p50 = shares_.Quantile(power_errors, 0.5);
     part.power_p95 = shares_.Quantile(power_errors, 0.95);
   }
@@ -187,9 +217,12 @@ CertifiedPart CertificateSums::PartOf(std::string name, const IsOf& is_of) const
 
 CertifiedPart CertificateSums::PartOfTolerance() const {
   const std::vector<std::uint32_t>& labels = spec_.tolerance_labels;
-  return PartOf("all", [&](const CertifiedEcho& echo) {
-    return labels.empty() || std::ranges::binary_search(labels, echo.label);
-  });
+  return PartOf(
+      "all",
+      [&](const CertifiedEcho& echo) {
+        return labels.empty() || std::ranges::binary_search(labels, echo.label);
+      },
+      CertifiedPart::kLeastEchoes);
 }
 
 CertifiedRung CertificateSums::RungOf(std::size_t i) const {
@@ -217,7 +250,8 @@ RunCertificate CertificateSums::Result(const LabelTable& labels) const {
                         .firings = shares_.num_firings(),
                         .drawn = shares_.num_drawn()};
   if (shares_.num_firings() > 0) result.without_drawn = shares_.share_without_drawn();
-  result.all = PartOf("all", [](const CertifiedEcho&) { return true; });
+  result.all = PartOf(
+      "all", [](const CertifiedEcho&) { return true; }, CertifiedPart::kLeastEchoes);
   std::set<std::uint32_t> ids;
   std::set<std::uint32_t> bins;
   std::set<std::uint32_t> instances;
@@ -264,7 +298,7 @@ std::string CertificateText(const RunCertificate& certificate) {
   if (all.range_p50_m)
     text += ", range errors " + MillimetresText(*all.range_p50_m) + " in the median";
   text += "; " + NumberText(certificate.drawn) + " of " + NumberText(certificate.firings) +
-          " firings were made anew on rung reference\n";
+          " firings were made anew on rung reference\n" + WhatWouldTell(certificate);
   for (const CertifiedRung& rung : certificate.rungs) {
     if (!rung.missed || !all.missed) continue;
     text += "  " + rung.name + " would take " + RoundedText(rung.cost, rung.cost < 10.0 ? 2 : 0) +

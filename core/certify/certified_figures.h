@@ -18,10 +18,12 @@ namespace railcast {
 class Archive;
 
 /// What a run's certificate says of the echoes of one part of the scene. Figures are absent where
-/// fewer than kLeastEchoes echoes of it were drawn. Range errors are those of the found echoes,
-/// before range noise and without a sign; errors of the power are |frame / reference - 1|.
+/// fewer than kLeastEchoes echoes of all were drawn, or kLeastInRow of a class, range or object,
+/// which are compared. Range errors are those of the found echoes, before range noise and without a
+/// sign; errors of the power are |frame / reference - 1|.
 struct CertifiedPart {
   static constexpr std::uint64_t kLeastEchoes = 10;
+  static constexpr std::uint64_t kLeastInRow = 30;
 
   std::string name;                              ///< "all", a class, a range bin, an object.
   std::uint64_t echoes{};                        ///< Those of the reference that were drawn.
@@ -90,7 +92,9 @@ class CertificateSums {
 
  private:
   using IsOf = std::function<bool(const CertifiedEcho&)>;
-  [[nodiscard]] CertifiedPart PartOf(std::string name, const IsOf& is_of) const;
+  [[nodiscard]] CertifiedPart PartOf(std::string name,
+                                     const IsOf& is_of,
+                                     std::uint64_t least = CertifiedPart::kLeastInRow) const;
   /// What the tolerance limits.
   [[nodiscard]] CertifiedPart PartOfTolerance() const;
   [[nodiscard]] CertifiedRung RungOf(std::size_t i) const;

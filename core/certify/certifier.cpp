@@ -151,11 +151,10 @@ class CellDraws {
 
 std::optional<double> CertifiedShareOf(const std::string& text) {
   if (text == "off") return std::nullopt;
-  constexpr double kMostPercent = 10'000.0;
   const bool has_percent = text.ends_with('%');
   const auto percent =
       has_percent ? ParseNumber<double>(text.substr(0, text.size() - 1)) : std::nullopt;
-  if (percent && *percent > 0.0 && *percent <= kMostPercent) return *percent / 100.0;
+  if (percent && *percent > 0.0 && *percent <= kMostCertifiedPercent) return *percent / 100.0;
   throw InputError("--certify: must be off, or a share of the frames' time such as 1% (got " +
                    ShownText(text) + ")");
 }
@@ -200,7 +199,9 @@ Certifier::Certifier(const ScenarioSpec& scenario,
   }
   for (const SceneObject& object : world.objects()) object_labels_.insert(object.label);
   const int rays = own.beam.footprint_rays;
-  variants_ = {{WithoutRangeErrors(EffectsAt(Fidelity::kReference, scenario)), rays},
+  variants_ = {{.effects = WithoutRangeErrors(EffectsAt(Fidelity::kReference, scenario)),
+                .footprint_rays = rays,
+                .has_full_detail = true},
                {WithoutRangeErrors(own.effects), rays}};
   for (const RungBeside& rung : rungs_) variants_.push_back(rung.variant);
 }

@@ -28,8 +28,8 @@ struct CertifiedRegion {
 };
 
 /// Certifies the frames of a simulator: draws some firings of each, makes them anew on rung
-/// `reference` and on those beside the run's own, in the same scene and with the same random draws,
-/// and compares their echoes before range noise.
+/// `reference`, in full scene detail as on that rung, and on those beside the run's own, in the
+/// frame's own scene, with the same random draws, and compares their echoes before range noise.
 ///
 /// Which firings are drawn depends on the sensor's seed, the frame's number and its own result
 /// alone: by strata (Stratum), more of those of which experience says that they differ (Neyman
@@ -98,6 +98,9 @@ class Certifier {
                                   const DetectorSpec& own,
                                   std::size_t num_firings,
                                   double cost_share);
+
+/// The most that may be asked for.
+inline constexpr double kMostCertifiedPercent = 10'000.0;
 
 /// The share of the time that `--certify` gives: 0.01 of "1%"; nothing of "off".
 /// @throws InputError if it is neither.

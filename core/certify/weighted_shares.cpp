@@ -13,12 +13,53 @@ namespace {
 
 constexpr double kNormalQuantile = 1.959963984540054;  // Of 97.5 %.
 
-// Wilson's interval of a share of so many independent items.
-CertifiedFigure WilsonInterval(double share, double num) {
-  const double z2 = kNormalQuantile * kNormalQuantile / num;
-  const double middle = (share + 0.5 * z2) / (1.0 + z2);
-  const double half = std::sqrt(z2 * (share * (1.0 - share) + 0.25 * z2)) / (1.0 + z2);
-  return {share, std::clamp(middle - half, 0.0, share), std::clamp(middle + half, share, 1.0)};
+// The regularised incomplete beta function I_x(a, b), by its continued fraction (DLMF 8.17.22) in
+// Lentz's way.
+double IncompleteBeta(double a, double b, double x) {
+  constexpr int kMostTerms = 1000;
+  constexpr double kEnough = 1e-12;
+  if (x <= 0.0 || x >= 1.0) return x <= 0.0 ? 0.0 : 1.0;
+  // There it converges in some square roots of a and b.
+  if (x > (a + 1.0) / (a + b + 2.0)) return 1.0 - IncompleteBeta(b, a, 1.0 - x);
+  double c = 1.0;
+  double d = 1.0 / (1.0 - (a + b) * x / (a + 1.0));
+  double sum = d;
+  for (int m = 1; m < kMostTerms; ++m) {
+    const double even = m * (b - m) * x / ((a + 2.0 * m - 1.0) * (a + 2.0 * m));
+    const double odd = -(a + m) * (a + b + m) * x / ((a + 2.0 * m) * (a + 2.0 * m + 1.0));
+    for (const double term : {even, odd}) {
+      d = 1.0 / (1.0 + term * d);
+      c = 1.0 + term / c;
+      sum *= c * d;
+    }
+    if (std::abs(c * d - 1.0) < kEnough) break;
+  }
+  return sum / a *
+         std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) +
+                  b * std::log1p(-x));
+}
+
+// The value below which a quantity with the beta distribution is with a probability.
+double BetaQuantile(double a, double b, double probability) {
+  constexpr int kNumHalvings = 50;
+  double low = 0.0;
+  double high = 1.0;
+  for (int i = 0; i < kNumHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (IncompleteBeta(a, b, middle) < probability ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+// Clopper and Pearson's interval of a share of so many independent items, which need not be a whole
+// number (Korn and Graubard 1998, Survey Methodology 24). Wilson's is too short where few of few
+// items are wrong.
+CertifiedFigure ExactInterval(double share, double num) {
+  constexpr double kTail = 0.025;
+  const double of = share * num;
+  const double others = num - of;
+  return {share, of > 0.0 ? std::min(BetaQuantile(of, others + 1.0, kTail), share) : 0.0,
+          others > 0.0 ? std::max(BetaQuantile(of + 1.0, others, 1.0 - kTail), share) : 1.0};
 }
 
 // The stratum that stands for those of one label and state, or of one state.
@@ -146,7 +187,7 @@ std::optional<CertifiedFigure> WeightedShares::Share(const std::vector<double>& 
   const double total = std::inner_product(weights.begin(), weights.end(), among.begin(), 0.0);
   if (!(total > 0.0)) return std::nullopt;
   const double share = std::inner_product(weights.begin(), weights.end(), of.begin(), 0.0) / total;
-  return WilsonInterval(share, EffectiveNumber(share, of, among));
+  return ExactInterval(share, EffectiveNumber(share, of, among));
 }
 
 std::optional<CertifiedFigure> WeightedShares::Quantile(

@@ -56,14 +56,15 @@ class WeightedShares {
 
   /// Of all firings, the sum of one number over the sum of another, for numbers that are at least 0
   /// and of which the first is not the larger one: the share of echoes that are missed, say. The
-  /// interval is Wilson's (1927) at the effective number of the second. Absent if the second is 0.
+  /// interval is Clopper and Pearson's at the effective number of the second (Korn and Graubard
+  /// 1998, Survey Methodology 24): at least as long as it must be. Absent if the second is 0.
   /// @param of, among By drawn firing.
   [[nodiscard]] std::optional<CertifiedFigure> Share(const std::vector<double>& of,
                                                      const std::vector<double>& among) const;
 
   /// The quantile of values that belong to firings, with the interval of Woodruff (1952, JASA 47):
   /// the quantiles whose drawn share below is no farther from the true one, which is known,
-  /// than 1.96 of its standard deviations. Wilson's interval, of a share that is not known, would
+  /// than 1.96 of its standard deviations. An interval of a share that is not known would
   /// end too early in a tail. Absent if there is none.
   /// @param values (drawn firing, value)
   [[nodiscard]] std::optional<CertifiedFigure> Quantile(

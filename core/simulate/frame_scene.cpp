@@ -152,6 +152,21 @@ void FrameScenes::UseWind(const Wind& wind) {
   windows_.UseWind(wind.blows());
 }
 
+std::unique_ptr<FrameScenes> FrameScenes::InFullDetail() const {
+  FrameSceneSpec spec = spec_;
+  spec.detail = {};
+  auto full = std::make_unique<FrameScenes>(store_, spec);
+  full->UseWorld(world_);
+  full->UseWind(wind_);
+  full->has_motion_ = has_motion_;
+  full->has_texture_ = has_texture_;
+  full->footprint_labels_ = footprint_labels_;
+  full->last_stamp_ns_ = last_stamp_ns_;
+  // Of two frames that are made at once, the earlier one may be begun last.
+  full->KeepWindows(1);
+  return full;
+}
+
 BegunFrame FrameScenes::Begin(std::uint32_t index, std::int64_t stamp_ns) {
   const int home_chunk = world_->HomeChunk(stamp_ns);
   BegunFrame begun{index, stamp_ns, windows_.Get(home_chunk)};

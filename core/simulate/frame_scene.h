@@ -137,7 +137,13 @@ class FrameScenes {
   /// Has scenes made for casting rays from now on, although windows may be prepared for beams.
   void UseRaysAlone() { footprint_labels_.clear(); }
 
-  /// Begins a frame. Waits for its window if necessary, and starts preparing the next.
+  /// Whether nothing is coarser far away.
+  [[nodiscard]] bool has_full_detail() const { return spec_.detail.ray_spacing_rad == 0.0; }
+  /// Makes the same scenes, in full detail, for frames that are begun in almost any order.
+  [[nodiscard]] std::unique_ptr<FrameScenes> InFullDetail() const;
+
+  /// Begins a frame. Waits for its window if necessary, and starts preparing the next. Thread-safe,
+  /// but windows are kept for one caller at a time.
   [[nodiscard]] BegunFrame Begin(std::uint32_t index, std::int64_t stamp_ns);
   /// Returns the scene of a frame, which is made on the first call. Scenes of different frames may
   /// be made at once.

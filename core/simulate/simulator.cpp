@@ -82,6 +82,7 @@ Simulator::Simulator(std::shared_ptr<SceneStore> store,
                          .materials = materials.materials(),
                          .tiles = std::move(tiles),
                          .scenes{std::move(store), scene_spec},
+                         .full_scenes{},
                          .own{},
                          .variants{},
                          .others{},
@@ -131,25 +132,31 @@ void Simulator::Parts::UseSpec() {
   own.emplace(spec, materials, pattern);
   PrepareScenes();
   const DetectorSpec& detector = spec.detector;
-  scenes.UseWind(Wind(WindVelocity_mps(detector.weather), detector.air_seed));
-  scenes.UseMotion(detector.velocity.has_value());
+  const Wind wind(WindVelocity_mps(detector.weather), detector.air_seed);
+  ForScenes([&](FrameScenes& each) {
+    each.UseWind(wind);
+    each.UseMotion(detector.velocity.has_value());
+  });
   others.clear();
 }
 
 void Simulator::Parts::PrepareScenes() {
   std::vector<EffectSet> sets = {spec.detector.effects};
   for (const FiringVariant& variant : variants) sets.push_back(variant.effects);
-  scenes.UseTexture(std::ranges::any_of(sets, &EffectSet::texture));
+  const bool has_texture = std::ranges::any_of(sets, &EffectSet::texture);
   const bool casts_beams = std::ranges::any_of(sets, [&](const EffectSet& effects) {
     DetectorSpec detector = spec.detector;
     detector.effects = effects;
     return CastsBeams(detector);
   });
-  if (casts_beams) {
-    scenes.UseBeams(spec.detector.footprint_labels);
-  } else {
-    scenes.UseRaysAlone();
-  }
+  ForScenes([&](FrameScenes& each) {
+    each.UseTexture(has_texture);
+    if (casts_beams) {
+      each.UseBeams(spec.detector.footprint_labels);
+    } else {
+      each.UseRaysAlone();
+    }
+  });
 }
 
 const SimulatorSpec& Simulator::spec() const {
@@ -163,19 +170,19 @@ void Simulator::Use(const SimulatorSpec& spec) {
 }
 
 void Simulator::UseWorld(std::shared_ptr<const World> world) {
-  parts_->scenes.UseWorld(std::move(world));
+  parts_->ForScenes([&](FrameScenes& each) { each.UseWorld(world); });
 }
 
 void Simulator::UseProgress(WindowProgress progress) {
-  parts_->scenes.UseProgress(std::move(progress));
+  parts_->ForScenes([&](FrameScenes& each) { each.UseProgress(progress); });
 }
 
 void Simulator::KeepWindows(std::size_t num) {
-  parts_->scenes.KeepWindows(num);
+  parts_->ForScenes([&](FrameScenes& each) { each.KeepWindows(num); });
 }
 
 void Simulator::UseLastStamp(std::int64_t stamp_ns) {
-  parts_->scenes.UseLastStamp(stamp_ns);
+  parts_->ForScenes([&](FrameScenes& each) { each.UseLastStamp(stamp_ns); });
 }
 
 CastFrame Simulator::Parts::CastOf(const Detection& by,

@@ -59,6 +59,8 @@ struct Simulator::Parts {
   std::vector<Material> materials;
   std::shared_ptr<const FiringTiles> tiles;  // Of all frames, or of frame 0 if they differ.
   FrameScenes scenes;
+  /// In full detail, for variants; null if none asks for it, or if `scenes` are.
+  std::unique_ptr<FrameScenes> full_scenes;
   std::optional<Detection> own;  ///< By the spec; always there once the simulator is made.
   std::vector<FiringVariant> variants;
   std::vector<Detection> others;  ///< By the variants; empty if the spec has changed since.
@@ -104,6 +106,12 @@ struct Simulator::Parts {
     };
   }
   void UseSpec();
+  /// Calls `use` on all scenes that there are.
+  template <typename Use>
+  void ForScenes(const Use& use) {
+    use(scenes);
+    if (full_scenes != nullptr) use(*full_scenes);
+  }
   /// Has scenes made with what the spec's effects and those of the variants need.
   void PrepareScenes();
   /// Makes `others` unless they are there. Another spec needs others, but only for firings that are

@@ -31,6 +31,11 @@ void Simulator::UseVariants(std::vector<FiringVariant> variants) {
   parts.variants = std::move(variants);
   parts.others.clear();
   parts.MakeOthers();
+  if (!std::ranges::any_of(parts.variants, &FiringVariant::has_full_detail)) {
+    parts.full_scenes.reset();
+  } else if (parts.full_scenes == nullptr && !parts.scenes.has_full_detail()) {
+    parts.full_scenes = parts.scenes.InFullDetail();
+  }
   parts.PrepareScenes();
 }
 
@@ -44,8 +49,17 @@ void Simulator::ScanFirings(BegunFrame& begun,
   WithinMemory(parts.Making(begun.index), [&] {
     const ScanPattern& pattern = parts.PatternOf(begun);
     const FiringTiles firings = FiringTiles::OfCells(pattern, cells);
-    const FrameScene& scene = parts.SceneOf(begun);
+    const FrameScene& own_scene = parts.SceneOf(begun);
+    BegunFrame full;
+    if (parts.full_scenes != nullptr) {
+      parts.arena.execute([&] {
+        full = parts.full_scenes->Begin(begun.index, begun.stamp_ns);
+        static_cast<void>(parts.full_scenes->SceneOf(full));
+      });
+    }
     for (std::size_t i = 0; i < frames.size(); ++i) {
+      const bool is_full = parts.variants[i].has_full_detail && full.scene != nullptr;
+      const FrameScene& scene = is_full ? *full.scene : own_scene;
       const Detection& by = parts.others[i];
       Frame& frame = frames[i];
       frame.has_velocity = false;

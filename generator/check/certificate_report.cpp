@@ -40,7 +40,7 @@ std::string CertificateBudgetText(const ScenarioSpec& scenario,
                                   Simulator& simulator) {
   const double num_a_frame = Certifier(scenario, cost_share, simulator).num_expected();
   const double sampled_share = cost_share * kNumSampleFirings / (kNumSampled * num_a_frame);
-  const RunCertificate sampled = SampledCertificate(scenario, sampled_share, simulator);
+  RunCertificate sampled = SampledCertificate(scenario, sampled_share, simulator);
   std::ostringstream text;
   text << std::setprecision(3) << "--certify " << 100.0 * cost_share << "% makes about "
        << num_a_frame << " firings of each frame anew";
@@ -52,6 +52,7 @@ std::string CertificateBudgetText(const ScenarioSpec& scenario,
     text << ": " << kNumFrames << " frames would know the share of missed echoes to +-"
          << std::setprecision(2) << 100.0 * std::min(of_run, 1.0) << " points";
   }
+  sampled.cost_share = 0.0;  // It is no run of which more could be asked.
   std::string lines = ReportLine("certified", text.str());
   std::istringstream sampled_lines(CertificateText(sampled));
   for (std::string line; std::getline(sampled_lines, line);) {

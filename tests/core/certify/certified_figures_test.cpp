@@ -9,6 +9,7 @@ namespace railcast {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr std::uint32_t kGroundLabel = 4;
 constexpr std::uint32_t kPersonLabel = 13;
@@ -79,7 +80,7 @@ TEST(CertificateSums, GiveThemByClassRangeAndObject) {
   EXPECT_EQ(run.classes[0].name, "ground");
   EXPECT_DOUBLE_EQ(run.classes[0].missed->value, 6.0 / 30.0);
   EXPECT_EQ(run.classes[1].name, "person");
-  EXPECT_DOUBLE_EQ(run.classes[1].missed->value, 0.0);
+  EXPECT_EQ(run.classes[1].echoes, 10U);
   ASSERT_EQ(run.ranges.size(), 2U);
   EXPECT_EQ(run.ranges[0].name, "0 to 25 m");
   EXPECT_EQ(run.ranges[1].name, "50 to 100 m");
@@ -88,10 +89,26 @@ TEST(CertificateSums, GiveThemByClassRangeAndObject) {
   EXPECT_EQ(run.objects[0].echoes, 10U);
 }
 
-TEST(CertificateSums, GiveNoFigureOfFewerThanTenEchoes) {
-  const RunCertificate run = OfOneFrame();
-  EXPECT_EQ(run.ranges[1].echoes, 6U);
-  EXPECT_FALSE(run.ranges[1].missed);
+TEST(CertificateSums, GiveNoFigureOfRowsOfFewerThanThirtyEchoes) {
+  const auto run_of = [](std::uint32_t num) {
+    FrameCertificate certificate;
+    certificate.strata.push_back({kGroundStratum, 10'000, 0.004});
+    certificate.drawn.resize(num);
+    for (DrawnFiring& drawn : certificate.drawn) drawn.echoes = {Found(0.001, kGroundLabel, 7)};
+    CertificateSums sums({.objects = {{7, "Ann"}}});
+    sums.Add(certificate);
+    return sums.Result(Labels());
+  };
+  for (const std::uint32_t num : {9U, 10U, 29U, 30U}) {
+    const RunCertificate run = run_of(num);
+    for (const auto* rows : {&run.classes, &run.ranges, &run.objects}) {
+      ASSERT_EQ(rows->size(), 1U);
+      EXPECT_EQ((*rows)[0].echoes, num);
+      EXPECT_EQ((*rows)[0].missed.has_value(), num >= 30) << num;
+      EXPECT_EQ((*rows)[0].range_p95_m.has_value(), num >= 30) << num;
+    }
+    EXPECT_EQ(run.all.missed.has_value(), num >= 10) << num;
+  }
 }
 
 // As of things in a recording that no beam comes near.
@@ -140,6 +157,23 @@ TEST(CertificateText, SaysHowMuchIsMissedAndHowManyFiringsTellIt) {
   const std::string text = CertificateText(OfOneFrame());
   EXPECT_THAT(text, HasSubstr("certificate: 15.0 % ("));
   EXPECT_THAT(text, HasSubstr("40 of 10000 firings were made anew on rung reference"));
+}
+
+TEST(CertificateText, SaysWhatShareWouldTellMore) {
+  // The interval of 6 of 40 is 0.057 to 0.298: (0.1205 / 0.05)^2 = 5.8 times as many would do.
+  RunCertificate run = OfOneFrame();
+  EXPECT_THAT(CertificateText(run),
+              HasSubstr("  --certify 6% would tell the share of missed echoes to +-5 points\n"));
+  run.firings = 200;
+  EXPECT_THAT(CertificateText(run),
+              HasSubstr("  only more frames would tell the share of missed echoes"));
+  run.all.missed = CertifiedFigure{0.1, 0.06, 0.15};
+  EXPECT_THAT(CertificateText(run), Not(HasSubstr("would tell")));
+  // Nothing is known: 400 echoes would do, of which 8 were drawn.
+  run = {.cost_share = 0.01, .firings = 10'000, .drawn = 20};
+  run.all.echoes = 8;
+  EXPECT_THAT(CertificateText(run), HasSubstr("too few echoes were drawn to tell"));
+  EXPECT_THAT(CertificateText(run), HasSubstr("  --certify 50% would tell"));
 }
 
 }  // namespace

