@@ -134,6 +134,7 @@ std::string FrontierJson(const FrontierPlan& plan,
                          const FrontierCircumstances& circumstances,
                          const LabelTable& labels,
                          const std::vector<RowResult>& results) {
+  const TimingConditions conditions = ConditionsOf(plan, results);
   Json json = {
       {"version", circumstances.version},
       {"date", circumstances.date},
@@ -144,6 +145,10 @@ std::string FrontierJson(const FrontierPlan& plan,
       {"machine",
        {{"processor", ProcessorName()}, {"num_threads", std::thread::hardware_concurrency()}}},
       {"timed_with_threads", plan.num_threads},
+      {"timing",
+       {{"is_busy", conditions.is_busy()},
+        {"processor_share", conditions.processor_share},
+        {"raw_trace_p99_over_p50", conditions.raw_spread}}},
       {"frames", plan.frames},
       {"detail_frames", plan.detail_frames},
       {"yardstick_sub_rays", plan.yardstick_rays},

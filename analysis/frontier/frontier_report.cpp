@@ -116,13 +116,15 @@ Chart ErrorChart(const Table& errors, const FrontierError& error) {
   return chart;
 }
 
-Section TimeSection(const std::vector<RowResult>& results) {
+Section TimeSection(const FrontierPlan& plan, const std::vector<RowResult>& results) {
   Section section = SectionOf(kFrontierWords, "frontier");
   const Table errors = ErrorsTable(results, false);
   for (std::size_t i = 0; i < kNumCharts; ++i) {
     section.charts.push_back(ErrorChart(errors, kFrontierErrors[i]));
   }
   section.paragraphs = {DefeatsText(results)};
+  const std::string busy = BusyText(ConditionsOf(plan, results));
+  if (!busy.empty()) section.paragraphs.insert(section.paragraphs.begin(), busy);
   section.tables = {errors, FoundTable(results), TargetsTable(results), ParetoTable(results)};
   return section;
 }
@@ -157,7 +159,8 @@ Report MakeFrontierReport(const FrontierPlan& plan,
     if (result.row.group != RowGroup::kLadder) continue;
     report.headlines.push_back({result.row.name, "x raw", result.ratio()});
   }
-  report.sections = {TimeSection(results), PartsSection(results)};
+  if (ConditionsOf(plan, results).is_busy()) report.title += ": busy machine, times not to be used";
+  report.sections = {TimeSection(plan, results), PartsSection(results)};
   if (auto detail = DetailSection(plan, labels, results)) {
     report.sections.push_back(std::move(*detail));
   }

@@ -158,12 +158,14 @@ std::vector<RowTimes> KeptFrontier::TimesOf(
       FileOf("times", index), make,
       [](const std::vector<RowTimes>& rows) {
         nlohmann::json json = nlohmann::json::array();
-        for (const RowTimes& row : rows) json.push_back({row.times_ms, row.ratios});
+        for (const RowTimes& row : rows)
+          json.push_back({row.times_ms, row.ratios, row.processor_ms});
         return json.dump();
       },
       [](const std::string& text) {
         std::vector<RowTimes> rows;
-        for (const auto& row : nlohmann::json::parse(text)) rows.push_back({row.at(0), row.at(1)});
+        for (const auto& row : nlohmann::json::parse(text))
+          rows.push_back({row.at(0), row.at(1), row.at(2)});
         return rows;
       });
 }

@@ -15,6 +15,7 @@ namespace railcast {
 struct RowTimes {
   std::vector<double> times_ms;
   std::vector<double> ratios;
+  std::vector<double> processor_ms{};  ///< What the processor spent on each, on all threads.
 };
 
 /// What a run of `frontier` has measured so far, so that one that was stopped goes on: the frames

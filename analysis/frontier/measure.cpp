@@ -1,5 +1,7 @@
 #include "analysis/frontier/measure.h"
 
+#include <ctime>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -8,6 +10,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/fidelity/beam_steps.h"
 
 namespace railcast {
@@ -19,11 +22,33 @@ constexpr double kSlow_ms = 250.0;
 // Total time that suffices for a row, beyond one scan of each frame.
 constexpr double kEnough_ms = 10'000.0;
 
-double Time_ms(const std::function<void()>& work) {
+/// By the clock, and by the processor on all threads.
+struct Spent {
+  double time_ms{};
+  double processor_ms{};
+};
+
+double Processor_ms() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+Spent SpentOn(const std::function<void()>& work) {
   const auto begin = std::chrono::steady_clock::now();
+  const double begin_ms = Processor_ms();
   work();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
-      .count();
+  const double processor_ms = Processor_ms() - begin_ms;
+  return {
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count(),
+      processor_ms};
+}
+
+// @param times_ms In order.
+double RankedQuantile(const std::vector<double>& times_ms, double q) {
+  Check(!times_ms.empty(), "a row has been timed");
+  const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(times_ms.size())));
+  return times_ms[std::max<std::size_t>(rank, 1) - 1];
 }
 
 class Stopwatch {
@@ -59,7 +84,11 @@ class Stopwatch {
       const std::function<void()> scan = [&] { simulator.Scan(frame, frame_); };
       const bool has_enough = SumOf(before[i].times_ms) + SumOf(rows[i].times_ms) > kEnough_ms;
       if (has_enough && !rows[i].times_ms.empty()) continue;
-      std::vector<double> times_ms = TimesOf(is_raw ? raw_trace : scan);
+      std::vector<double> times_ms;
+      for (const Spent& spent : TimesOf(is_raw ? raw_trace : scan)) {
+        times_ms.push_back(spent.time_ms);
+        rows[i].processor_ms.push_back(spent.processor_ms);
+      }
       rows[i].times_ms.insert(rows[i].times_ms.end(), times_ms.begin(), times_ms.end());
       std::sort(times_ms.begin(), times_ms.end());
       const double median_ms = times_ms[times_ms.size() / 2];
@@ -72,12 +101,12 @@ class Stopwatch {
     return std::accumulate(times_ms.begin(), times_ms.end(), 0.0);
   }
 
-  static std::vector<double> TimesOf(const std::function<void()>& work) {
-    const double first_ms = Time_ms(work);  // The caches still hold another row's data.
-    if (first_ms > kSlow_ms) return {first_ms};
-    std::vector<double> times_ms;
-    for (int i = 0; i < kScansPerRound; ++i) times_ms.push_back(Time_ms(work));
-    return times_ms;
+  static std::vector<Spent> TimesOf(const std::function<void()>& work) {
+    const Spent first = SpentOn(work);  // The caches still hold another row's data.
+    if (first.time_ms > kSlow_ms) return {first};
+    std::vector<Spent> times;
+    for (int i = 0; i < kScansPerRound; ++i) times.push_back(SpentOn(work));
+    return times;
   }
 
   const SimulatorSpec& spec_;
@@ -88,7 +117,14 @@ class Stopwatch {
 void AddTimes(const std::vector<RowTimes>& rows, std::vector<RowResult>& results) {
   Check(rows.size() == results.size(), "every row has its times");
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto& [times_ms, ratios] = rows[i];
+    const auto& [times_ms, ratios, processor_ms] = rows[i];
+    results[i].processor_ms.insert(results[i].processor_ms.end(), processor_ms.begin(),
+                                   processor_ms.end());
+    std::vector<double> sorted = times_ms;
+    std::ranges::sort(sorted);
+    if (!sorted.empty()) {
+      results[i].spreads.push_back(RankedQuantile(sorted, 0.99) / RankedQuantile(sorted, 0.5));
+    }
     results[i].times_ms.insert(results[i].times_ms.end(), times_ms.begin(), times_ms.end());
     results[i].ratios.insert(results[i].ratios.end(), ratios.begin(), ratios.end());
   }
@@ -228,15 +264,36 @@ void MeasureDetail(const FrontierPlan& plan,
 }  // namespace
 
 double RowResult::TimeQuantile_ms(double q) const {
-  Check(!times_ms.empty(), "a row has been timed");
-  const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(times_ms.size())));
-  return times_ms[std::max<std::size_t>(rank, 1) - 1];
+  return RankedQuantile(times_ms, q);
 }
 
 double RowResult::ratio() const {
   std::vector<double> sorted = ratios;
   std::sort(sorted.begin(), sorted.end());
   return sorted[sorted.size() / 2];
+}
+
+TimingConditions ConditionsOf(const FrontierPlan& plan, const std::vector<RowResult>& results) {
+  TimingConditions conditions;
+  double time_ms = 0.0;
+  double processor_ms = 0.0;
+  for (const RowResult& result : results) {
+    time_ms += std::accumulate(result.times_ms.begin(), result.times_ms.end(), 0.0);
+    processor_ms += std::accumulate(result.processor_ms.begin(), result.processor_ms.end(), 0.0);
+  }
+  if (plan.num_threads == 1 && processor_ms > 0.0)
+    conditions.processor_share = processor_ms / time_ms;
+  const std::vector<double>& spreads = results.front().spreads;
+  if (!spreads.empty()) conditions.raw_spread = *std::ranges::max_element(spreads);
+  return conditions;
+}
+
+std::string BusyText(const TimingConditions& conditions) {
+  if (!conditions.is_busy()) return "";
+  return "Busy machine: times are not to be used (the processor spent " +
+         NumberText(std::round(100.0 * conditions.processor_share)) +
+         " % of the time on them; the raw trace took up to " + ShortText(conditions.raw_spread) +
+         " times its median).";
 }
 
 double KeptShare(const FrontierPlan& plan, const KeptFrontier& kept) {

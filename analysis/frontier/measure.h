@@ -117,6 +117,8 @@ struct RowResult {
   /// Median time divided by that of the raw trace in the same round, for each round that timed the
   /// row.
   std::vector<double> ratios;
+  std::vector<double> processor_ms{};  ///< Of the processor for all times of times_ms, by frame.
+  std::vector<double> spreads{};       ///< 99 % quantile over median of the times of each frame.
   /// Of a row with scene detail `auto`, against the same row in full detail.
   std::vector<DetailDifference> detail_differences{};
 
@@ -129,6 +131,25 @@ struct RowResult {
  private:
   [[nodiscard]] double TimeQuantile_ms(double q) const;
 };
+
+/// Whether a machine had time for what was timed on it.
+struct TimingConditions {
+  /// Of the time of one thread, what the processor spent on it; 1 with several threads, whose waits
+  /// for each other tell nothing.
+  double processor_share = 1.0;
+  /// 99 % quantile over median of the times of the raw trace, on the frame where that is greatest.
+  double raw_spread = 1.0;
+
+  /// An idle machine has shares above 0.99 and spreads below 1.2.
+  [[nodiscard]] bool is_busy() const { return processor_share < 0.9 || raw_spread > 2.0; }
+};
+
+/// @param results The first is the raw trace.
+[[nodiscard]] TimingConditions ConditionsOf(const FrontierPlan& plan,
+                                            const std::vector<RowResult>& results);
+
+/// What is to be said of the times; empty unless the machine was busy.
+[[nodiscard]] std::string BusyText(const TimingConditions& conditions);
 
 /// Called with the completed share of the work, in [0, 1].
 using FrontierProgress = std::function<void(const std::string& what, double done)>;

@@ -68,6 +68,44 @@ TEST(FrontierReport, ChartsTheRungsFromLeftToRight) {
   EXPECT_EQ(rungs[1].label, "footprint");
 }
 
+// Of three rows of which the processor spent a share of the time, and the raw trace varied.
+std::vector<RowResult> TimedResults(double processor_share, double raw_spread) {
+  std::vector<RowResult> results = Results();
+  for (RowResult& result : results) {
+    for (const double time_ms : result.times_ms) {
+      result.processor_ms.push_back(processor_share * time_ms);
+    }
+  }
+  results[0].spreads = {1.1, raw_spread};
+  return results;
+}
+
+TEST(FrontierReport, SaysWhereTheMachineWasBusy) {
+  const auto said = [](double processor_share, double raw_spread, int num_threads) {
+    FrontierPlan plan;
+    plan.num_threads = num_threads;
+    const std::vector<RowResult> results = TimedResults(processor_share, raw_spread);
+    const Report report =
+        MakeFrontierReport(plan, Circumstances(), Labels(), results, "railcast-analyze frontier");
+    const PlainJson json = PlainJson::parse(FrontierJson(plan, Circumstances(), Labels(), results));
+    const std::string busy = BusyText(ConditionsOf(plan, results));
+    EXPECT_EQ(json["timing"]["is_busy"], !busy.empty());
+    EXPECT_EQ(report.title.ends_with(": busy machine, times not to be used"), !busy.empty());
+    EXPECT_EQ(report.sections[0].paragraphs[0] == busy, !busy.empty());
+    return busy;
+  };
+  EXPECT_EQ(said(0.995, 1.2, 1), "");
+  EXPECT_EQ(said(0.12, 1.2, 1),
+            "Busy machine: times are not to be used (the processor spent 12 % of the time on them; "
+            "the raw trace took up to 1.2 times its median).");
+  EXPECT_EQ(said(0.97, 3.25, 1),
+            "Busy machine: times are not to be used (the processor spent 97 % of the time on them; "
+            "the raw trace took up to 3.25 times its median).");
+  // Several threads wait for each other, also on an idle machine.
+  EXPECT_EQ(said(0.6, 1.2, 4), "");
+  EXPECT_NE(said(0.6, 3.25, 4), "");
+}
+
 TEST(FrontierReport, CallsBruteForceByItsRays) {
   const Chart chart = ChartedReport().sections[0].charts[0];
   EXPECT_EQ(chart.series[1].points[0].label, "7");

@@ -29,7 +29,7 @@ TEST(KeptFrontier, GivesBackWhatItKeptBitByBit) {
   const TemporaryDirectory directory;
   const Frame frame = ExampleFrame(3);
   const std::vector<float> steps_m = {0.25F, std::nanf(""), 1.0F / 3.0F};
-  const std::vector<RowTimes> times = {{{1.0 / 3.0, 2.0}, {1.0}}, {{}, {}}};
+  const std::vector<RowTimes> times = {{{1.0 / 3.0, 2.0}, {1.0}, {0.3, 1.9}}, {{}, {}}};
   {
     const KeptFrontier kept(directory.path() / "kept", "a run");
     EXPECT_FALSE(kept.HasFrame(3));
@@ -52,6 +52,7 @@ TEST(KeptFrontier, GivesBackWhatItKeptBitByBit) {
   EXPECT_EQ(kept_steps_m[2], steps_m[2]);
   const auto kept_times = kept.TimesOf(3, [] { return std::vector<RowTimes>(); });
   EXPECT_EQ(kept_times.at(0).times_ms, times[0].times_ms);
+  EXPECT_EQ(kept_times.at(0).processor_ms, times[0].processor_ms);
   EXPECT_EQ(kept_times.at(1).times_ms, times[1].times_ms);
   kept.Remove();
   EXPECT_FALSE(exists(directory.path() / "kept"));
