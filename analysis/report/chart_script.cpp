@@ -28,10 +28,15 @@ constexpr const char* kPngTerminal =
     "set terminal pngcairo noenhanced rounded fontscale 2 linewidth 2 pointscale 2 "
     "font 'sans-serif,10'";
 
+// Whether names side by side would overlap. Each stands in the middle of its share of the axis.
 bool HasLongCategories(const Chart& chart) {
-  std::size_t num_letters = 0;
-  for (const std::string& name : chart.x.categories) num_letters += name.size() + 2;
-  return num_letters > kMaxLettersBelow && chart.x.categories.size() <= kMaxLyingCategories;
+  const std::vector<std::string>& names = chart.x.categories;
+  if (names.size() > kMaxLyingCategories) return false;
+  std::size_t most_letters = 0;  // Of two neighbours.
+  for (std::size_t i = 1; i < names.size(); ++i) {
+    most_letters = std::max(most_letters, names[i - 1].size() + names[i].size() + 4);
+  }
+  return most_letters * names.size() > 2 * kMaxLettersBelow;
 }
 
 // gnuplot's "set xtics (...)" or the like.

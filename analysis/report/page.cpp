@@ -114,8 +114,10 @@ data TableData(const Table& table, bool is_on_paper) {
 }
 
 data HeadlineData(const Headline& headline) {
+  constexpr std::size_t kMostLargeLetters = 9;  // What a card has room for.
   const CellText text = TextOf(headline.value);
   return object{{"title", headline.title},
+                {"is_large", text.is_number && text.value.size() <= kMostLargeLetters},
                 {"unit", IfAny(text.is_absent ? "" : headline.unit)},
                 {"is_number", text.is_number},
                 {"is_absent", text.is_absent},

@@ -11,6 +11,7 @@
 #include "core/base/join.h"
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
+#include "core/io/write_file.h"
 #include "core/scenario/command_log.h"
 
 namespace railcast {
@@ -210,7 +211,7 @@ CommandLoop::CommandLoop(FrameMaker& maker,
   if (std::filesystem::exists(*log_file)) {
     throw InputError("--commands-log: must not exist yet (got " + ShownPath(*log_file) + ")");
   }
-  log_.emplace(*log_file, 0);
+  log_.emplace(FileToReplace(*log_file), 0);
   log_->Append(CommandLogHeader(scenario_xxh3));
 }
 

@@ -95,8 +95,9 @@ std::string LiveSummary(const std::vector<LiveRecord>& records,
   std::ostringstream text;
   for (std::size_t i = 0; i < records.size(); ++i) {
     const LiveRecord& record = records[i];
-    text << record.name << ": " << record.frames << (record.frames == 1 ? " frame" : " frames")
-         << ", " << record.late_frames << " late" << DroppedText(record.dropped_frames) << "; "
+    if (!record.name.empty()) text << record.name << ": ";
+    text << record.frames << (record.frames == 1 ? " frame" : " frames") << ", "
+         << record.late_frames << " late" << DroppedText(record.dropped_frames) << "; "
          << record.sent.datagrams << " " << record.sends << ", " << record.sent.bytes
          << " bytes; to receivers " << delivered[i].sent << " sent, " << delivered[i].refused
          << " refused\n";

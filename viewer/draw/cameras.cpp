@@ -79,6 +79,29 @@ CameraPlace PlaceForAll(std::span<const float> positions_m) {
   return place;
 }
 
+// The share of the points that lies behind the place of the sensor.
+double ShareBehind(std::span<const float> positions_m, const std::array<double, 3>& origin_m) {
+  std::size_t num_behind = 0;
+  for (std::size_t i = 0; i < positions_m.size(); i += 3) {
+    if (static_cast<double>(positions_m[i]) < origin_m[0] - 1.0) ++num_behind;
+  }
+  return static_cast<double>(num_behind) /
+         static_cast<double>(std::max<std::size_t>(positions_m.size() / 3, 1));
+}
+
+/// Looks down on the sensor from where 95 of 100 points around it are in view.
+CameraPlace PlaceAbove(std::span<const float> positions_m, const std::array<double, 3>& origin_m) {
+  std::vector<double> aside_m;
+  for (std::size_t i = 0; i < positions_m.size(); i += 3) {
+    aside_m.push_back(std::max(std::abs(static_cast<double>(positions_m[i]) - origin_m[0]),
+                               std::abs(static_cast<double>(positions_m[i + 1]) - origin_m[1])));
+  }
+  const double radius_m = std::max(10.0, QuantileOf(std::move(aside_m), 0.95));
+  CameraPlace place{.eye_m = origin_m, .target_m = origin_m, .up = {1.0, 0.0, 0.0}};
+  place.eye_m[2] += radius_m / std::tan(0.5 * kViewAngle_deg * std::numbers::pi / 180.0);
+  return place;
+}
+
 }  // namespace
 
 CameraPlace UprightCamera(const std::array<double, 3>& eye_m,
@@ -94,6 +117,10 @@ CameraPlace PresetCamera(std::string_view name,
                          bool is_origin_on_rails) {
   if (name == "all" && !positions_m.empty()) return PlaceForAll(positions_m);
   const std::array<double, 3> origin_m = OriginOf(positions_m);
+  constexpr double kSurroundsFrom = 0.1;
+  if (name == "top" && ShareBehind(positions_m, origin_m) > kSurroundsFrom) {
+    return PlaceAbove(positions_m, origin_m);
+  }
   CameraPlace place = AtOrigin(name);
   if (name == "driver" && is_origin_on_rails) {
     place.eye_m[2] += kDriverHeight_m;

@@ -21,8 +21,8 @@ struct CameraPlace {
                                         const std::array<double, 3>& target_m);
 
 /// "driver" looks forward from the sensor, "chase" forward from above and behind it; "side" looks
-/// from the right; "top" from above with forward up; "all" looks like "chase" from as far as it
-/// takes to see the cloud.
+/// from the right; "top" from above with forward up, ahead of the sensor or, if points are all
+/// around it, on it; "all" looks like "chase" from as far as it takes to see the cloud.
 inline constexpr std::array<std::string_view, 5> kCameraNames = {"driver", "top", "side", "chase",
                                                                  "all"};
 

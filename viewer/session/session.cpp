@@ -58,14 +58,18 @@ void Session::PairSources() {
 }
 
 void Session::FitToAll(const std::vector<std::shared_ptr<const ShownFrame>>& shown) {
+  const auto has_it = [this](const auto& each) {
+    return std::ranges::count(ColorableFields(*each->recorded), choices_.color_by) > 0;
+  };
   if (choices_.color_by.empty()) {
     choices_.color_by = DefaultColorField(*shown.front()->recorded);
-    const bool all_have_it = std::ranges::all_of(shown, [this](const auto& each) {
-      return std::ranges::count(ColorableFields(*each->recorded), choices_.color_by) > 0;
-    });
-    if (!all_have_it) choices_.color_by = "height";
+    if (!std::ranges::all_of(shown, has_it)) choices_.color_by = "height";
   }
-  for (const auto& each : shown) FitChoices(*each, choices_);
+  // A source that lacks what was asked for shows another field, and says so.
+  if (std::ranges::none_of(shown, has_it)) FitChoices(*shown.front(), choices_);
+  for (const auto& each : shown) {
+    if (has_it(each)) FitChoices(*each, choices_);
+  }
 }
 
 bool Session::Seek(std::size_t place) {

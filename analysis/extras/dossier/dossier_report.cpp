@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "analysis/extras/study/study_factors.h"
@@ -63,10 +64,40 @@ Report MakeDossier(const FinishedStudy& study,
   return report;
 }
 
+std::string WithColoredMarks(const std::string& html) {
+  const std::string ink = "#17202a";
+  std::string text;
+  std::size_t from = 0;
+  for (std::size_t at = html.find("<defs>"); at != std::string::npos;
+       at = html.find("<defs>", from)) {
+    const std::size_t body = html.find("</defs>", at);
+    const std::size_t end = html.find("</svg>", at);
+    Check(body < end && end != std::string::npos, "a drawing ends after its definitions");
+    const std::string defs = html.substr(at, body - at);
+    std::string marks = html.substr(body, end - body);
+    text += boost::replace_all_copy(html.substr(from, at - from), "currentColor", ink) +
+            boost::replace_all_copy(defs, "currentColor", ink);
+    std::set<std::string> colors;
+    for (std::size_t use = marks.find("<use "); use != std::string::npos;
+         use = marks.find("<use ", use + 1)) {
+      const std::size_t color = marks.find("color='#", use);
+      if (color == std::string::npos || color > marks.find("/>", use)) continue;
+      const std::string name = marks.substr(color + 8, 6);
+      marks.insert(marks.find("-gp", use), "-" + name);
+      colors.insert(name);
+    }
+    for (const std::string& color : colors) {
+      std::string colored = boost::replace_all_copy(defs.substr(6), "-gp", "-" + color + "-gp");
+      text += boost::replace_all_copy(colored, "currentColor", "#" + color);
+    }
+    text += boost::replace_all_copy(marks, "currentColor", ink);
+    from = end;
+  }
+  return text + boost::replace_all_copy(html.substr(from), "currentColor", ink);
+}
+
 void PrintPage(const std::filesystem::path& page, const std::filesystem::path& pdf) {
-  std::string html = ReadFileWhole(page);
-  // weasyprint 57 fails on drawings in the colour of the text.
-  boost::replace_all(html, "currentColor", "#17202a");
+  std::string html = WithColoredMarks(ReadFileWhole(page));
   const std::size_t head = html.find("</head>");
   Check(head != std::string::npos, "a page has a head");
   html.insert(head, "<style>" + std::string(kPrintCss) + "</style>");

@@ -67,6 +67,10 @@ struct ModelError {
                                  const ModelError& error,
                                  const std::string& command);
 
+/// A page whose drawings are in no colour of the text around, on which weasyprint 57 fails, with
+/// marks of the same colours: each colour has definitions of its own.
+[[nodiscard]] std::string WithColoredMarks(const std::string& html);
+
 /// Prints a report's page with weasyprint.
 /// @param page report.html as EmitReport() writes it.
 /// @throws InputError if weasyprint is not found or fails, or if the file cannot be written.

@@ -280,6 +280,23 @@ TEST(LabelsText, KeepsTheNamesOfAFrontiersRowsApart) {
   }
 }
 
+TEST(DrawingOf, LaysBarsDownWhereNamesSideBySideWouldOverlap) {
+  const auto lies = [](const std::vector<std::string>& names) {
+    Chart chart{"c", "C", "", {}, {}, {}};
+    chart.x.categories = names;
+    chart.series = {{"share", kBars}};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      chart.series[0].points.push_back({.x = static_cast<double>(i), .y = 1.0});
+    }
+    return CountOf(DrawingOf(chart, PaintsOf({chart}), "c.svg", "c.png"),
+                   "set ytics nomirror scale 0.4 ('" + names[0] + "'") == 1;
+  };
+  EXPECT_FALSE(lies({"weather", "person", "speed", "place", "time"}));
+  // 54 letters, 14 a name: but the two long ones are neighbours.
+  EXPECT_TRUE(lies({"a", "reflectivity of clothes", "distance of the tree", "time", "b"}));
+  EXPECT_FALSE(lies({"the only name, which has all the room"}));
+}
+
 TEST(DrawSheet, MakesAPngAnSvgAndTheirScript) {
   const TemporaryFolder folder;
   const auto picture = folder.Write("here", "").parent_path() / "it's a picture";

@@ -27,6 +27,12 @@ TEST(LiveSummary, TellsFramesDatagramsAndQuantiles) {
             "refused\n");
 }
 
+TEST(LiveSummary, NamesOnlySensorsThatHaveAName) {
+  const LiveRecord record{.name = "", .frames = 9};
+  EXPECT_EQ(LiveSummary({record}, {{0, 0}}, false),
+            "9 frames, 0 late; 0 datagrams, 0 bytes; to receivers 0 sent, 0 refused\n");
+}
+
 TEST(LiveSummary, TellsDroppedFramesWhereThereAreAny) {
   const LiveRecord record{.name = "front", .frames = 3, .late_frames = 2, .dropped_frames = 4};
   EXPECT_EQ(LiveSummary({record}, {{0, 0}}, false),
@@ -78,6 +84,7 @@ TEST(LiveSummary, TellsWhatWasCertifiedIfAnythingIsToBe) {
       "  certify        1.000     1.000     1.000     1.000 ms\n"
       "certificate: too few echoes were drawn to tell; 4 of 900 firings were made anew on rung "
       "reference\n"
+      "  only more frames would tell the share of missed echoes to +-5 points\n"
       "  2 of 3 frames were not certified for want of time\n"))
       << text;
   const auto front =

@@ -277,13 +277,27 @@ TEST(Session, ColoursTwoSourcesByWhatBothHave) {
   EXPECT_EQ(session.choices().color_by, "height");
 }
 
-TEST(Session, RefusesTwoSourcesOfWhichOneLacksTheFieldAskedFor) {
-  HeldFrames a({Share(LabelledCloud(0))}, "a");
+TEST(Session, ColoursTheSourceThatHasTheFieldAskedForAndSaysThatTheOtherLacksIt) {
+  HeldFrames a({Share(NumberedCloud(5))}, "a");
+  HeldFrames b({Share(LabelledCloud(0))}, "b");
+  for (const std::size_t labelled : {0U, 1U}) {
+    Session session(labelled == 0 ? std::vector<Frames*>{&b, &a} : std::vector<Frames*>{&a, &b},
+                    By("label"));
+    ASSERT_TRUE(session.Seek(0));
+    const auto compositions = session.Compose();
+    EXPECT_EQ(compositions[labelled].coloring.title, "label");
+    EXPECT_EQ(compositions[1 - labelled].coloring.title, "height [m]");
+    EXPECT_THAT(compositions[1 - labelled].status,
+                testing::EndsWith("\nhas no field label to color by"));
+  }
+}
+
+TEST(Session, RefusesTwoSourcesThatBothLackTheFieldAskedFor) {
+  HeldFrames a({Share(NumberedCloud(0))}, "a");
   HeldFrames b({Share(NumberedCloud(5))}, "b");
-  Choices choices{.color_by = "label"};
-  Session session({&a, &b}, choices);
+  Session session({&a, &b}, By("label"));
   EXPECT_EQ(MessageOf([&] { (void)session.Seek(0); }),
-            "5.pcd: has no field label to color by (has: range, height, x, y)");
+            "0.pcd: has no field label to color by (has: range, height, x, y)");
 }
 
 TEST(Session, OfTwoSourcesShowsTheirDistancesInOneView) {

@@ -157,6 +157,21 @@ TEST_F(DossierOfAStudy, BeginsWithTheQuestionAndAnswersOrOpensEachOfTheRules) {
   }
 }
 
+TEST(WithColoredMarks, GivesEachColourDefinitionsOfItsOwn) {
+  const std::string page =
+      "<p>currentColor</p><svg><defs><path id='k-gpPt0' stroke='currentColor'/>"
+      "<use xlink:href='#k-gpPt0' id='k-gpPt1' fill='currentColor'/></defs>"
+      "<path stroke='currentColor'/><use xlink:href='#k-gpPt1' x='1' color='#0072b2'/>"
+      "<use xlink:href='#k-gpPt0'/></svg><svg><path stroke='#0072b2'/></svg>";
+  EXPECT_EQ(WithColoredMarks(page),
+            "<p>#17202a</p><svg><defs><path id='k-gpPt0' stroke='#17202a'/>"
+            "<use xlink:href='#k-gpPt0' id='k-gpPt1' fill='#17202a'/>"
+            "<path id='k-0072b2-gpPt0' stroke='#0072b2'/>"
+            "<use xlink:href='#k-0072b2-gpPt0' id='k-0072b2-gpPt1' fill='#0072b2'/></defs>"
+            "<path stroke='#17202a'/><use xlink:href='#k-0072b2-gpPt1' x='1' color='#0072b2'/>"
+            "<use xlink:href='#k-gpPt0'/></svg><svg><path stroke='#0072b2'/></svg>");
+}
+
 TEST_F(DossierOfAStudy, KeepsOutOfTheStudy) {
   const std::string study = study_->directory.string();
   const Ended ended = RunCommand(RAILCAST_ANALYZE " dossier " + study + " --out " + study);
