@@ -6,6 +6,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cstddef>
+#include <utility>
 
 #include "core/base/error.h"
 
@@ -26,6 +27,32 @@ double PlainMedian(std::vector<double>& samples) {
   const double lower =
       *std::max_element(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(half));
   return 0.5 * (lower + upper);
+}
+
+/// The standard deviation, in steps, of the normal law that has as wide a middle half as samples
+/// that are counted by steps. Between the edges of steps, normal quantiles are interpolated.
+double SpreadInSteps(const RoundedSamples& samples) {
+  const boost::math::normal normal;
+  std::vector<std::pair<double, double>> edges;  // The quantile of the share below, and the place.
+  double below = 0.0;
+  const auto add = [&](double place) {
+    if (!edges.empty() && !(place > edges.back().second)) return;
+    const double share = std::clamp(below, 0.5, samples.num - 0.5) / samples.num;
+    edges.emplace_back(boost::math::quantile(normal, share), place);
+  };
+  for (const auto& [steps, count] : samples.by_steps) {
+    add(static_cast<double>(steps) - 0.5);
+    below += count;
+    add(static_cast<double>(steps) + 0.5);
+  }
+  const double quartile = boost::math::quantile(normal, 0.75);
+  const auto place_of = [&](double quantile) {
+    const auto above = std::ranges::lower_bound(edges, std::pair(quantile, 0.0));
+    if (above == edges.begin() || above == edges.end()) return 0.0;
+    const auto& [from, place] = *std::prev(above);
+    return std::lerp(place, above->second, (quantile - from) / (above->first - from));
+  };
+  return (place_of(quartile) - place_of(-quartile)) / (2.0 * quartile);
 }
 
 }  // namespace
@@ -109,9 +136,17 @@ Estimate RobustScale(std::vector<double>& samples) {
   return RobustScaleEstimate(PlainRobustScale(distances), samples.size());
 }
 
-Estimate RobustScale(const RoundedSamples& samples, Rounded rounded) {
+Estimate RobustScale(const RoundedSamples& samples, RoundedValues rounded) {
   const auto num = static_cast<std::uint64_t>(samples.num);
   if (num < kMinSamples) return NotEnough(num);
+  constexpr double kCoarse = 0.5;  // Of the spread: coarser steps shape the law of the samples.
+  const double spread = SpreadInSteps(samples);
+  if (kCoarse * spread > 1.0) {
+    const double off_steps =
+        rounded == RoundedValues::kOne ? 0.0 : 1.0 - samples.num_on_steps / samples.num;
+    const double rounding = (1.0 + std::clamp(off_steps, 0.0, 1.0)) / 12.0;
+    return RobustScaleEstimate(samples.step * std::sqrt(spread * spread - rounding), num);
+  }
   const RoundedScale scale = FindRoundedScale({samples}, rounded);
   return {scale.value, scale.low, scale.high, num};
 }

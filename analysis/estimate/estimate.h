@@ -105,8 +105,9 @@ struct RankInterval {
 /// the plain standard deviation (Rousseeuw and Croux 1993, JASA 88).
 [[nodiscard]] Estimate RobustScale(std::vector<double>& samples);
 
-/// The same of samples that come in steps, before they were rounded (core/base/rounded_scale.h).
-[[nodiscard]] Estimate RobustScale(const RoundedSamples& samples, Rounded rounded);
+/// The same of samples that come in steps, before they were rounded: by their middle half where the
+/// steps are finer than half of it, else by maximum likelihood (core/base/rounded_scale.h).
+[[nodiscard]] Estimate RobustScale(const RoundedSamples& samples, RoundedValues rounded);
 
 /// A standard deviation less what rounding to a step adds to its square, a twelfth of the step's.
 /// Where all values fall into one step it adds nothing: the interval's upper end stays.

@@ -122,7 +122,7 @@ Estimate LogHistogram::RobustScale() const {
   return NotEnough(num_);
 }
 
-Estimate LogHistogram::RobustScale(double step, Rounded rounded) const {
+Estimate LogHistogram::RobustScale(double step, RoundedValues rounded) const {
   const Estimate plain = RobustScale();
   constexpr double kFinest = 0.01;  // Steps that are finer than the bins change nothing.
   if (!plain.is_enough() || !(step > kFinest * plain.value)) return plain;

@@ -48,7 +48,7 @@ class LogHistogram {
   /// See RobustScale() in estimate.h.
   [[nodiscard]] Estimate RobustScale() const;
   /// Of samples that came in steps; without a step as above.
-  [[nodiscard]] Estimate RobustScale(double step, Rounded rounded) const;
+  [[nodiscard]] Estimate RobustScale(double step, RoundedValues rounded) const;
 
  private:
   [[nodiscard]] double OfRank(std::uint64_t rank) const;

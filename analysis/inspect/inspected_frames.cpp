@@ -59,8 +59,9 @@ double HeightOf_m(const RecordedFrame& recorded) {
 /// A figure of frames, as odd values of it are told.
 struct FrameFigure {
   std::function<double(const InspectedFrame&)> value;
-  std::string what{};      ///< "points".
-  double least_off{};      ///< What differs by less is not odd.
+  std::string what{};  ///< "points".
+  /// What differs by less is not odd; 0: less than a tenth, or than chance does.
+  double least_off{};
   bool is_length = false;  ///< In m, rather than a number.
 };
 
@@ -76,8 +77,10 @@ void JudgeFigure(const FrameFigure& figure, std::vector<InspectedFrame>& frames)
   if (values.size() < kFewest) return;
   const double median = MedianOf(values);
   const double spread = PlainRobustScale(values);
-  const double most = std::max({kMost * spread, kShare * median, figure.least_off,
-                                figure.least_off > 0.0 ? 0.0 : kOfChance * std::sqrt(median)});
+  const double least_off = figure.least_off > 0.0
+                               ? figure.least_off
+                               : std::max(kShare * median, kOfChance * std::sqrt(median));
+  const double most = std::max(kMost * spread, least_off);
   for (InspectedFrame& frame : frames) {
     const double value = figure.value(frame);
     if (!(std::abs(value - median) > most)) continue;
@@ -145,7 +148,9 @@ void JudgeCopies(std::vector<InspectedFrame>& frames) {
   }
 }
 
-std::vector<Cell> RowOf(bool has_stamps, const std::vector<InspectedFrame>& frames, std::size_t i) {
+std::vector<Cell> FrameRow(bool has_stamps,
+                           const std::vector<InspectedFrame>& frames,
+                           std::size_t i) {
   const InspectedFrame& frame = frames[i];
   std::string odd;
   for (const std::string& each : frame.odd) odd += (odd.empty() ? "" : "; ") + each;
@@ -177,7 +182,7 @@ InspectedFrame InspectFrame(const RecordedFrame& recorded, std::vector<std::uint
   inspected.is_grid = recorded.is_grid;
   inspected.stamp_ns = frame.stamp_ns;
   inspected.hash = HashOf(frame);
-  if (recorded.origin_m.isZero()) inspected.height_m = HeightOf_m(recorded);
+  if (recorded.why_no_ranges.empty()) inspected.height_m = HeightOf_m(recorded);
   std::erase(ring_points, 0U);
   if (ring_points.empty()) return inspected;
   constexpr double kLeast = 0.01;
@@ -218,7 +223,7 @@ Section FramesSection(bool has_stamps, const std::vector<InspectedFrame>& frames
   table.is_open = true;
   for (const bool is_odd : {true, false}) {
     for (std::size_t i = 0; i < frames.size() && table.rows.size() < kMost; ++i) {
-      if (frames[i].odd.empty() != is_odd) table.rows.push_back(RowOf(has_stamps, frames, i));
+      if (frames[i].odd.empty() != is_odd) table.rows.push_back(FrameRow(has_stamps, frames, i));
     }
   }
   const auto num_odd = static_cast<std::size_t>(std::ranges::count_if(

@@ -106,11 +106,23 @@ void AddDensityHeadline(const Curves& curves, Name name, Report& report) {
       {"Exponent of density against range, " + best_name, "", Density::LawOf(*best).exponent});
 }
 
+/// Whether it is not known of any frame where its sensor was.
+bool HaveNoRanges(const std::vector<RecordingInfo>& sources, std::uint64_t num_frames) {
+  std::uint64_t num = 0;
+  for (const RecordingInfo& info : sources) {
+    for (const Remark& remark : info.remarks->List()) {
+      num += remark.kind == RemarkKind::kRangesUnknown ? remark.number : 0;
+    }
+  }
+  return num_frames > 0 && num >= num_frames;
+}
+
 void AddSections(const Statistics& statistics,
                  const Names& names,
-                 const LabelTable& labels,
+                 const std::vector<RecordingInfo>& sources,
                  const std::optional<RunCertificate>& certificate,
                  Report& report) {
+  const bool has_ranges = !HaveNoRanges(sources, statistics.coverage.num_frames());
   const auto add = [&](const auto& figures, const auto&... given) {
     if (!figures.is_empty()) report.sections.push_back(figures.MakeSection(given...));
   };
@@ -121,12 +133,13 @@ void AddSections(const Statistics& statistics,
   add(statistics.objects);
   add(statistics.difficulty);
   if (!statistics.difficulty.is_empty()) {
-    report.sections.push_back(MakeOsdarBalanceSection(statistics.difficulty, labels));
+    report.sections.push_back(
+        MakeOsdarBalanceSection(statistics.difficulty, sources.front().labels));
   }
   add(statistics.gauge, names);
-  report.sections.push_back(statistics.noise.MakeSection());
+  if (has_ranges) report.sections.push_back(statistics.noise.MakeSection());
   if (certificate) report.sections.push_back(MakeCertificateSection(*certificate));
-  report.sections.push_back(statistics.temporal_noise.MakeSection());
+  if (has_ranges) report.sections.push_back(statistics.temporal_noise.MakeSection());
   add(statistics.velocity);
   add(statistics.intensity, names);
   report.sections.push_back(statistics.coverage.MakeSection());
@@ -170,7 +183,7 @@ Report MakeStatisticsReport(const Statistics& statistics,
       statistics.density.by_attitude(), [](const std::string& attitude) { return attitude; },
       report);
 
-  AddSections(statistics, names, sources.front().labels, certificate, report);
+  AddSections(statistics, names, sources, certificate, report);
   return report;
 }
 

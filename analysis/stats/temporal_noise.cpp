@@ -58,7 +58,7 @@ Estimate TemporalNoise::Bin::Sigma_m() const {
 }
 
 Estimate TemporalNoise::Bin::RobustSigma_m() const {
-  return Scaled(differences_m.robust.RobustScale(step_m.PlainMean(), Rounded::kBoth),
+  return Scaled(differences_m.robust.RobustScale(step_m.PlainMean(), RoundedValues::kBoth),
                 1.0 / std::numbers::sqrt2);
 }
 

@@ -18,7 +18,7 @@ namespace railcast {
 // not rounded, has one such error, of uniform density; counted by whole steps it has the first law.
 
 /// How samples by whole steps came about.
-enum class Rounded : std::uint8_t {
+enum class RoundedValues : std::uint8_t {
   kBoth,  ///< A difference of two rounded values.
   kOne,   ///< A rounded value less one that is not.
 };
@@ -44,11 +44,11 @@ struct RoundedScale {
 
 /// The standard deviation before rounding (of the difference for kBoth) that samples have in common
 /// about their means; those beyond three of it do not count. The interval is that of the
-/// likelihood. Where the noise is below 0.4 steps, its upper end is that of means in the middle
+/// likelihood. Where the noise is below 0.55 steps, its upper end is that of means in the middle
 /// between two steps, which hide most of it.
 /// @pre There is a sample.
 [[nodiscard]] RoundedScale FindRoundedScale(const std::vector<RoundedSamples>& samples,
-                                            Rounded rounded);
+                                            RoundedValues rounded);
 
 /// The step of which at least a quarter of the samples in excess of chance are whole multiples: a
 /// peak of their characteristic function beyond its first minimum. 0 if there is none. Looks at

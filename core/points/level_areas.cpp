@@ -17,6 +17,9 @@ constexpr double kFarthest_m = 25.0;
 constexpr double kNear_m = 0.1;      // From a plane.
 constexpr double kApart_m = 0.25;    // Of planes, at the sensor.
 constexpr double kMostSlope = 0.17;  // The tangent of 10 degrees.
+// The tangent of 2 degrees. A ring that is less steep meets walls at about one height, as if they
+// were level.
+constexpr double kLeastDepression = 0.035;
 
 /// A plane as z = height + slope . (x, y).
 struct LevelPlane {
@@ -41,7 +44,7 @@ std::vector<Eigen::Vector3d> LevelCells(const std::vector<Eigen::Vector3f>& poin
     const double way_m = std::hypot(double{point_m.x()}, double{point_m.y()});
     const double below_m = -double{point_m.z()};
     // Negated so that NaN fails, too.
-    if (!(way_m < kFarthest_m && below_m > 0.0)) continue;
+    if (!(way_m < kFarthest_m && below_m > kLeastDepression * way_m)) continue;
     if (way_m < kOwn_m && below_m < kOwnBelow_m) continue;
     const auto place = [](float along_m) {
       return static_cast<std::int32_t>(std::floor(double{along_m} / kCell_m));
@@ -121,7 +124,7 @@ std::pair<LevelPlane, std::size_t> BestPlane(const std::vector<Eigen::Vector3d>&
 
 std::vector<LevelArea> FindLevelAreas(const std::vector<Eigen::Vector3f>& points_m) {
   constexpr std::size_t kMost = 4;
-  constexpr std::size_t kFewestCells = 8;
+  constexpr std::size_t kFewestCells = 20;
   constexpr double kLeastShare = 0.2;
   std::vector<Eigen::Vector3d> cells_m = LevelCells(points_m);
   const double least = kLeastShare * static_cast<double>(cells_m.size());

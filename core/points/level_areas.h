@@ -17,8 +17,8 @@ inline constexpr double kOwn_m = 3.0;
 inline constexpr double kOwnBelow_m = 1.0;
 
 /// Finds the level areas below a sensor, the largest first: planes that slope by less than 10
-/// degrees through squares of 0.5 m, up to 25 m away, whose points are within 0.2 m of each other,
-/// and through a fifth of these or more.
+/// degrees through squares of 0.5 m, up to 25 m away and 2 degrees below the horizon or more, whose
+/// points are within 0.2 m of each other: through 5 m2 and a fifth of these or more.
 /// One area belongs to each 0.25 m of height at the sensor, so that slopes and cambers are not
 /// several. What is seen of the vehicle itself does not count.
 /// @param points_m From the sensor, z upward, in any order.

@@ -197,8 +197,9 @@ void WidenBySteps(const Estimate& sigma_m, double step_m, FittedParameter& param
                        " mm, which hide the noise";
     return;
   }
-  parameter.estimate.low *= sigma_m.low / sigma_m.value;
-  parameter.estimate.high *= sigma_m.high / sigma_m.value;
+  const double open = std::max(sigma_m.high / sigma_m.value, sigma_m.value / sigma_m.low);
+  parameter.estimate.low /= open;
+  parameter.estimate.high *= open;
 }
 
 void FitNoise(RecordedTrials& trials, const FitSettings& settings, FitResult& result) {

@@ -188,7 +188,7 @@ Estimate NoiseOf(std::vector<double> residuals_m, double step_m, bool is_from_tu
   if (!(step_m > 0.0)) return RobustScale(residuals_m);
   RoundedSamples samples(ResidualStep_m(step_m, is_from_turn_to_turn));
   for (const double residual_m : residuals_m) samples.Add(residual_m);
-  return RobustScale(samples, is_from_turn_to_turn ? Rounded::kBoth : Rounded::kOne);
+  return RobustScale(samples, is_from_turn_to_turn ? RoundedValues::kBoth : RoundedValues::kOne);
 }
 
 void TakeOutSteps(const RecordedTrials& trials,

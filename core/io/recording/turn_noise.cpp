@@ -76,6 +76,7 @@ JackknifedFigure RoundedDeviationOf(const BySector& differences, const BySector&
   using Groups = std::map<std::int64_t, RoundedSamples>;
   std::array<Groups, kNumSectors> sectors;
   Groups all;
+  std::map<std::int64_t, double> sum_of_steps;
   std::vector<std::uint64_t> sizes;
   const auto in = [&](Groups& groups, std::int64_t group) -> RoundedSamples& {
     const double step = std::exp(kWidth * static_cast<double>(group));
@@ -85,12 +86,15 @@ JackknifedFigure RoundedDeviationOf(const BySector& differences, const BySector&
     for (std::size_t i = 0; i < differences.at(sector).size(); ++i) {
       const double step = steps.at(sector)[i];
       const std::int64_t group = std::llround(std::log(step) / kWidth);
+      sum_of_steps[group] += step;
       RoundedSamples& of = in(sectors.at(sector), group);
       of.Add(differences.at(sector)[i] / step * of.step);
     }
     for (const auto& [group, samples] : sectors.at(sector)) in(all, group).Add(samples);
     sizes.push_back(differences.at(sector).size());
   }
+  // Samples are counted by steps of their own, which are those of their group on average.
+  for (auto& [group, samples] : all) samples.step = sum_of_steps[group] / samples.num;
   const auto scale_without = [&](std::size_t left_out) {
     std::vector<RoundedSamples> rest;
     for (const auto& [group, samples] : all) {
@@ -99,16 +103,17 @@ JackknifedFigure RoundedDeviationOf(const BySector& differences, const BySector&
       const auto found = sectors.at(left_out).find(group);
       if (found != sectors.at(left_out).end()) rest.back().Add(found->second, -1.0);
     }
-    return FindRoundedScale(rest, Rounded::kBoth);
+    return FindRoundedScale(rest, RoundedValues::kBoth);
   };
   JackknifedFigure figure = Jackknife(
       [&](std::size_t left_out) { return scale_without(left_out).value / std::numbers::sqrt2; },
       sizes);
   if (std::isnan(figure.value)) return figure;
   // What the steps hide may be more than what differs from sector to sector.
-  constexpr double kErrors = 2.0 * 1.96 * std::numbers::sqrt2;  // In a 95 % interval.
+  constexpr double kErrors = 1.96 * std::numbers::sqrt2;  // In half a 95 % interval.
   const RoundedScale scale = scale_without(kNumSectors);
-  figure.error = std::max(figure.error, (scale.high - scale.low) / kErrors);
+  const double half = std::max(scale.high - scale.value, scale.value - scale.low);
+  figure.error = std::max(figure.error, half / kErrors);
   return figure;
 }
 

@@ -156,6 +156,33 @@ TEST(RobustEstimators, StandWhereOutliersSpoilThePlainOnes) {
   EXPECT_NEAR(RobustScale(samples).value, 0.5, 0.1);
 }
 
+// Samples with more far from the middle than normal ones, as those of what moves.
+TEST(RobustEstimators, HardlyMoveWithStepsFinerThanHalfTheSpread) {
+  for (const double step : {0.02, 0.1, 0.3, 0.4}) {
+    for (const double shift : {0.0, 0.37, -2.5}) {
+      std::mt19937_64 random(12);
+      std::exponential_distribution<double> draw;
+      std::uniform_real_distribution<double> mean(0.0, 100.0);
+      std::vector<double> samples;
+      RoundedSamples of_both(step), of_one(step);
+      for (int i = 0; i < 20000; ++i) {
+        samples.push_back(shift + (i % 2 == 0 ? draw(random) : -draw(random)));
+        const double at = mean(random);
+        const double rounded = step * std::round((at + samples.back()) / step);
+        of_both.Add(rounded - step * std::round(at / step));
+        of_one.Add(rounded - at);
+      }
+      const Estimate plain = RobustScale(samples);
+      for (const Estimate& seen :
+           {RobustScale(of_both, RoundedValues::kBoth), RobustScale(of_one, RoundedValues::kOne)}) {
+        EXPECT_NEAR(seen.value / plain.value, 1.0, 0.04) << step;
+        EXPECT_NEAR((seen.high - seen.low) / (plain.high - plain.low), 1.0, 0.04) << step;
+        EXPECT_EQ(seen.num, plain.num);
+      }
+    }
+  }
+}
+
 TEST(LogHistogram, HasTheMedianOfItsSamplesToHalfAPercent) {
   std::mt19937_64 random(6);
   std::lognormal_distribution<double> draw(-3.0, 1.0);

@@ -35,7 +35,9 @@ bool IsOne(const RoundedScale& scale, double per_one, double step) {
   SCOPED_TRACE(step);
   // Five standard errors of the samples, which become more where the step is coarse.
   EXPECT_NEAR(scale.value / per_one, 1.0, 0.06 + 0.01 * step);
-  if (step <= 2.0) EXPECT_LT((scale.high - scale.low) / per_one, 0.15);
+  if (step <= 2.0) {
+    EXPECT_LT((scale.high - scale.low) / per_one, 0.15);
+  }
   return scale.low <= per_one && scale.high >= per_one;
 }
 
@@ -51,8 +53,9 @@ TEST(RoundedScale, SeesThroughStepsOfBothValuesOfADifference) {
         const double b = is_same_mean ? a : draws.Mean();
         samples.Add(draws.Rounded(b) - b - draws.Rounded(a) + a + draws.Outlier(i));
       }
-      holds +=
-          IsOne(FindRoundedScale({samples}, Rounded::kBoth), std::numbers::sqrt2, step) ? 1 : 0;
+      holds += IsOne(FindRoundedScale({samples}, RoundedValues::kBoth), std::numbers::sqrt2, step)
+                   ? 1
+                   : 0;
     }
   }
   EXPECT_GE(holds, 12);
@@ -67,7 +70,7 @@ TEST(RoundedScale, SeesThroughStepsOfOneValue) {
       const double mean = draws.Mean();
       samples.Add(draws.Rounded(mean) - mean + draws.Outlier(i));
     }
-    holds += IsOne(FindRoundedScale({samples}, Rounded::kOne), 1.0, step) ? 1 : 0;
+    holds += IsOne(FindRoundedScale({samples}, RoundedValues::kOne), 1.0, step) ? 1 : 0;
   }
   EXPECT_GE(holds, 6);
 }
@@ -78,7 +81,7 @@ TEST(RoundedScale, SaysHowMuchAStepCanHide) {
     Draws draws(step);
     RoundedSamples samples(step);
     for (int i = 0; i < kNumSamples; ++i) samples.Add(draws.Rounded(0.0) - draws.Rounded(0.0));
-    const RoundedScale scale = FindRoundedScale({samples}, Rounded::kBoth);
+    const RoundedScale scale = FindRoundedScale({samples}, RoundedValues::kBoth);
     EXPECT_LT(scale.low, std::numbers::sqrt2) << step;
     EXPECT_GT(scale.high, std::numbers::sqrt2) << step;
   }
@@ -92,7 +95,7 @@ TEST(RoundedScale, IsAboutTheMean) {
       const double mean = draws.Mean();
       samples.Add(draws.Rounded(mean + shift) - draws.Rounded(mean));
     }
-    const double scale = FindRoundedScale({samples}, Rounded::kBoth).value;
+    const double scale = FindRoundedScale({samples}, RoundedValues::kBoth).value;
     EXPECT_NEAR(scale / std::numbers::sqrt2, 1.0, 0.06) << shift;
   }
 }
@@ -107,7 +110,7 @@ TEST(RoundedScale, IsCommonToSamplesOfSeveralSteps) {
       samples.back().Add(draws.Rounded(mean) - draws.Rounded(mean));
     }
   }
-  const RoundedScale scale = FindRoundedScale(samples, Rounded::kBoth);
+  const RoundedScale scale = FindRoundedScale(samples, RoundedValues::kBoth);
   EXPECT_NEAR(scale.value / std::numbers::sqrt2, 1.0, 0.02);
   EXPECT_LT(scale.high - scale.low, 0.1);
 }

@@ -74,6 +74,22 @@ TEST(LevelAreas, OfSimilarSizeAreBothNamed) {
   EXPECT_NEAR(ground.rivals[0].area_m2, 100.0, 25.0);
 }
 
+// Each beam meets all walls at about one height.
+TEST(LevelAreas, AreNoneOnWallsThatLevelBeamsMeet) {
+  for (const double radius_m : {3.5, 8.0, 20.0}) {
+    Points points_m;
+    for (const double depression_rad : {0.002, 0.01, 0.03}) {
+      for (double turn_rad = 0.0; turn_rad < 6.28; turn_rad += 0.005) {
+        const double way_m = radius_m * (1.0 + 0.1 * std::cos(3.0 * turn_rad));
+        points_m.emplace_back(static_cast<float>(way_m * std::cos(turn_rad)),
+                              static_cast<float>(way_m * std::sin(turn_rad)),
+                              static_cast<float>(-way_m * depression_rad));
+      }
+    }
+    EXPECT_TRUE(FindLevelAreas(points_m).empty()) << radius_m;
+  }
+}
+
 TEST(LevelAreas, AreNoneInAChaosOfPointsAndWithoutPoints) {
   EXPECT_TRUE(FindLevelAreas({}).empty());
   EXPECT_TRUE(FindLevelAreas(Points(100, Eigen::Vector3f(NAN, NAN, NAN))).empty());

