@@ -1,6 +1,7 @@
 #include "core/scene/object_contacts.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "core/scene/convex_body.h"
@@ -53,6 +54,13 @@ double DepthOfBoxes_m(const Eigen::AlignedBox3d& one, const Eigen::AlignedBox3d&
   return (one.max() - other.min()).cwiseMin(other.max() - one.min()).minCoeff();
 }
 
+/// Bodies of two objects whose boxes come near each other.
+struct NearPair {
+  const ConvexBody* one{};
+  const ConvexBody* other{};
+  double most_depth_m{};
+};
+
 /// The smallest gap between bodies of two objects, at most kApart_m; negative where they are in
 /// each other.
 double LeastGap_m(const std::vector<NearBody>& of_one,
@@ -66,19 +74,24 @@ double LeastGap_m(const std::vector<NearBody>& of_one,
     const double own_m = other.box_m.max().x();
     end_m.push_back(end_m.empty() ? own_m : std::max(end_m.back(), own_m));
   }
-  double least_m = kApart_m;
+  std::vector<NearPair> pairs;
   for (const NearBody& one : of_one) {
     const Eigen::AlignedBox3d reach_m = Widened(one.box_m, kTouch_m);
     auto other =
         of_other.begin() + (std::ranges::lower_bound(end_m, reach_m.min().x()) - end_m.begin());
     for (; other != of_other.end() && begin_m(*other) <= reach_m.max().x(); ++other) {
       if (!reach_m.intersects(other->box_m)) continue;
-      if (-DepthOfBoxes_m(one.box_m, other->box_m) >= least_m) continue;
-      const double gap_m = Gap_m(*one.body, one_from_other, *other->body, kApart_m);
-      least_m = gap_m > 0.0
-                    ? std::min(least_m, gap_m)
-                    : -Depth_m(*one.body, one_from_other, *other->body, std::max(0.0, -least_m));
+      pairs.push_back({one.body, other->body, DepthOfBoxes_m(one.box_m, other->box_m)});
     }
+  }
+  // The deepest boxes first: what is found there rules out most of the others.
+  std::ranges::sort(pairs, std::ranges::greater(), &NearPair::most_depth_m);
+  double least_m = kApart_m;
+  for (const auto& [one, other, most_depth_m] : pairs) {
+    if (-most_depth_m >= least_m) break;
+    const double gap_m = Gap_m(*one, one_from_other, *other, kApart_m);
+    least_m = gap_m > 0.0 ? std::min(least_m, gap_m)
+                          : -Depth_m(*one, one_from_other, *other, std::max(0.0, -least_m));
   }
   return least_m;
 }
