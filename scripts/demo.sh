@@ -40,7 +40,7 @@ build_stage 1 railcast-generate
 rm -rf out/demo out/demo.png out/first.png out/stats
 mkdir -p out
 "$build/generator/railcast-generate" sequence scenarios/st_gallen_approach.json --out out/demo --frames 50 \
-  --certify 1% --picture out/first.png
+  --certify 10% --picture out/first.png
 end_stage 1
 cat <<TEXT
 Look at

@@ -30,8 +30,8 @@ constexpr const char* kHead = R"(# Records: every key of the files that railcast
 what the files are for. Keys stand in this order. *Optional* keys are left out where there is no value; *or null* ones are
 null. Readers take no other keys. `…[]` stands for each element of a list, `….*` for each value of an object whose keys are
 names. Files that end in `.jsonl` have a record on each line; a line's last key `line_xxh3`, which is not listed here, is
-the hash of the line before it, and `manifest_xxh3` of a `manifest.json` that of the file before it. Hashes are 64-bit
-XXH3, as `xxhsum -H3` prints them.
+the hash of the line before it, and `manifest_xxh3` at the end of a `manifest.json` or a `sensors.json` that of the file
+before it. Hashes are 64-bit XXH3, as `xxhsum -H3` prints them.
 )";
 
 std::string TypeText(const ValueType& type) {

@@ -8,7 +8,7 @@
 #include "core/io/record/read_record.h"
 #include "core/io/recording/sequence_lines.h"
 #include "core/io/run/run_record.h"
-#include "core/io/verify/frame_clouds.h"
+#include "core/io/verify/findings.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace railcast {

@@ -90,6 +90,8 @@ struct FiringVariant {
   /// Whether, as in the simulator's spec, a beam has a width only if it may meet a surface with one
   /// of DetectorSpec::footprint_labels; if false, every beam has one.
   bool has_footprint_of = true;
+  /// Whether far things are traced as finely as near ones, whatever SimulatorSpec says.
+  bool has_full_detail = false;
 };
 
 /// How much of an object the beams of a frame see.
@@ -212,11 +214,14 @@ class Simulator {
   [[nodiscard]] std::vector<std::uint32_t> FiringsNearObjects(
       BegunFrame& begun, std::span<const std::size_t> objects) const;
 
-  /// Sets the variants in which ScanFirings() simulates firings.
+  /// Sets the variants in which ScanFirings() simulates firings. One in full detail has scenes of
+  /// its own if the simulator has not: they share chunks, models and objects with the simulator's
+  /// where these are as fine, and are built when firings are first simulated there.
   void UseVariants(std::vector<FiringVariant> variants);
-  /// Simulates some firings of a begun frame in every variant, in the same scene and with the same
-  /// random draws as the frame itself, so that differences from it are due to the effects alone.
-  /// Halos, which reach from beam to beam, are left out. Thread-safe as Scan() of a begun frame.
+  /// Simulates some firings of a begun frame in every variant, in the same scene (but for its
+  /// detail, if the variant says so) and with the same random draws as the frame itself, so that
+  /// differences from it are due to these alone. Halos, which reach from beam to beam, are left
+  /// out. Thread-safe as Scan() of a begun frame.
   /// @param cells Indices row * columns + column of the firings, ascending; at least one.
   /// @param[out] frames One for each variant, with one row and a column for each cell.
   void ScanFirings(BegunFrame& begun,

@@ -191,7 +191,7 @@ RecordedFrame MakeCloudFrame(const Cloud& cloud,
   const std::vector<std::uint32_t>& times_ns = recorded.frame.time_ns;
   if (!times_ns.empty()) recorded.frame.duration_ns = *std::ranges::max_element(times_ns);
   if (!recorded.Has("column")) LeaveOutUnlikelyTimes(recorded);  // Ours may begin all at once.
-  if (cloud.Find("column") == nullptr) CheckUnit(recorded);  // Ours is in metres.
+  if (cloud.Find("column") == nullptr) CheckUnit(recorded);      // Ours is in metres.
   return recorded;
 }
 

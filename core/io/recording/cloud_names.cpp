@@ -77,6 +77,7 @@ CloudSeries CloudFilesIn(const fs::path& directory) {
     const bool is_hidden = entry.path().filename().native().starts_with('.');
     if (!is_hidden && IsCloudFile(entry.path())) files.push_back(entry.path());
   }
+  SortNaturally(files);
   CheckStemsDiffer(files);
   return SeriesOfClouds(std::move(files), is_part ? label : "");
 }

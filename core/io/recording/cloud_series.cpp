@@ -22,14 +22,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Names = std::vector<CloudName>;
+using CloudNames = std::vector<CloudName>;
 
 /// Decides what a value means that all names have: whether hyphens before it are signs, and how
 /// fractions are read. Fractions are numbers of nanoseconds without zeros in front, as pcl_ros of
 /// ROS 2 writes them, if the longest has nine digits, none begins with 0, as one in ten decimal
 /// fractions does, and none is as short as 5, half a second or 5 ns; and they are numbers of their
 /// own if two would be the same, as where 1.10 is the tenth of the first.
-void SettleValues(Names& names, std::size_t place) {
+void SettleValues(CloudNames& names, std::size_t place) {
   const auto value_of = [&](CloudName& name) -> NameValue& { return name.values[place]; };
   const std::string& before = names.front().texts[place];
   const bool are_signs =
@@ -158,9 +158,9 @@ std::vector<std::int64_t> StampsOf(const NameSeries& series) {
 
 /// Parses names: those that differ in their numbers alone hold times where all of them do.
 /// Otherwise "20261130_000059" is followed by "20261130_000060".
-Names ParseNames(const std::vector<std::string>& stems) {
-  Names plain;
-  Names timed;
+CloudNames ParseNames(const std::vector<std::string>& stems) {
+  CloudNames plain;
+  CloudNames timed;
   std::map<std::string, bool> all_timed;  // By the text beside the numbers.
   for (const std::string& stem : stems) {
     plain.push_back(ParseCloudName(stem, false));
@@ -176,7 +176,7 @@ Names ParseNames(const std::vector<std::string>& stems) {
 }
 
 /// The number of different values in a place of names.
-std::size_t NumDifferent(const Names& names, std::size_t place) {
+std::size_t NumDifferent(const CloudNames& names, std::size_t place) {
   std::set<NameValue> values;
   for (const CloudName& name : names) values.insert(name.values[place]);
   return values.size();
@@ -185,7 +185,7 @@ std::size_t NumDifferent(const Names& names, std::size_t place) {
 /// Whether a value of these names numbers sensors or drives beside the one that runs: each of
 /// several has two files or more, and it belongs to a word, as in "lidar2_0001", or the other one
 /// counts without a gap beside it.
-bool IsOfSource(const Names& names, std::size_t place, std::size_t running) {
+bool IsOfSource(const CloudNames& names, std::size_t place, std::size_t running) {
   std::map<NameValue, std::vector<NameValue>> beside;
   bool is_in_word = false;
   for (const CloudName& name : names) {
@@ -201,7 +201,7 @@ bool IsOfSource(const Names& names, std::size_t place, std::size_t running) {
 }
 
 /// Splits names that differ in their values alone, and puts each series in order.
-std::vector<NameSeries> SplitNames(Names names, const std::vector<std::size_t>& files) {
+std::vector<NameSeries> SplitNames(CloudNames names, const std::vector<std::size_t>& files) {
   const std::size_t num_values = names.front().values.size();
   std::vector<std::size_t> different;
   for (std::size_t i = 0; i < num_values; ++i) {
@@ -248,8 +248,8 @@ std::vector<NameSeries> SplitNames(Names names, const std::vector<std::size_t>& 
 
 /// All series of names, also those of one.
 std::vector<NameSeries> SeriesOfNames(const std::vector<std::string>& stems) {
-  std::map<std::string, std::pair<Names, std::vector<std::size_t>>> by_text;
-  Names names = ParseNames(stems);
+  std::map<std::string, std::pair<CloudNames, std::vector<std::size_t>>> by_text;
+  CloudNames names = ParseNames(stems);
   for (std::size_t i = 0; i < names.size(); ++i) {
     auto& [alike, files] = by_text[names[i].Label()];
     files.push_back(i);

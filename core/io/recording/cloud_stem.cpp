@@ -97,7 +97,7 @@ std::optional<std::int64_t> TakeTime_ns(std::string_view& text) {
 
 /// Takes a number off the front of the text, with its sign, if it has one, and its decimals, unless
 /// these are followed by others, as in 1.2.3.
-NameValue TakeNumber(std::string_view& text) {
+NameValue TakeNumberOfName(std::string_view& text) {
   NameValue number;
   const std::string_view before = text;
   const char sign = TakeOneOf("+-", text);
@@ -187,7 +187,7 @@ CloudName ParseCloudName(std::string_view stem, bool with_times) {
       value.time_ns = *time_ns;
       value.written = before.substr(0, before.size() - rest.size());
     } else if (IsDigit(rest.front()) || is_sign) {
-      value = TakeNumber(rest);
+      value = TakeNumberOfName(rest);
     } else {
       last = rest.front();
       name.texts.back() += last;

@@ -71,57 +71,76 @@ bool AreFarTogether(const Positions& positions) {
   return AreTogether(positions, middle_m, far_m > kGrid_m ? kGrid_m : kLocal_m);
 }
 
-/// Whether an axis has the azimuths of a whole turn, from -180 or from 0 deg on: all of its
-/// twelfths have values, which reach its ends, and there is none beyond.
-bool IsAzimuth(const std::vector<double>& values, double turn) {
-  constexpr std::size_t kNumParts = 12;
-  const auto [least, most] = std::ranges::minmax(values);
-  const double begin = least < 0.0 ? -0.5 * turn : 0.0;
-  constexpr double kRounding = 1e-4;
-  constexpr double kWidestStep = 0.02;  // Of a turn.
-  if (least < begin - kRounding * turn || most > begin + (1.0 + kRounding) * turn) return false;
-  if (most - least < (1.0 - kWidestStep) * turn) return false;
-  std::array<std::size_t, kNumParts> num{};
-  for (const double value : values) {
-    const double part = (value - begin) / turn * static_cast<double>(kNumParts);
-    ++num.at(static_cast<std::size_t>(std::clamp(part, 0.0, kNumParts - 1.0)));
-  }
-  return std::ranges::all_of(num, [](std::size_t of_part) { return of_part > 0; });
-}
-
-/// Whether an axis has elevations of rings: few values, each of several points.
-bool IsElevation(std::vector<double> values, double turn) {
-  constexpr std::size_t kMostRings = 256;
-  constexpr std::size_t kLeastPoints = 4;  // Of a ring, on average.
-  const bool are_level =
-      std::ranges::all_of(values, [&](double value) { return std::abs(value) <= 0.25 * turn; });
-  if (!are_level) return false;
-  const std::size_t num = values.size();
+std::vector<double> DifferentOf(std::vector<double> values) {
   std::ranges::sort(values);
   values.erase(std::ranges::unique(values).begin(), values.end());
-  return values.size() > 1 && values.size() <= kMostRings && num >= kLeastPoints * values.size();
+  return values;
+}
+
+/// Whether an axis has the azimuths of a whole turn, from -180 or from 0 deg on: their widest gap
+/// is no wider than a twelfth, and they end no farther than that from the ends of the turn.
+/// @param values In order.
+bool IsAzimuth(const std::vector<double>& values, double turn) {
+  constexpr double kRounding = 1e-4;
+  constexpr double kWidestGap = 1.0 / 12.0;
+  const double begin = values.front() < 0.0 ? -0.5 * turn : 0.0;
+  if (values.front() < begin - kRounding * turn) return false;
+  if (values.back() > begin + (1.0 + kRounding) * turn) return false;
+  double gap = 0.0;
+  for (std::size_t i = 1; i < values.size(); ++i) gap = std::max(gap, values[i] - values[i - 1]);
+  const double missing = turn - (values.back() - values.front());
+  return gap <= kWidestGap * turn && missing <= (1.0 + kRounding) * gap + kRounding * turn;
+}
+
+/// Whether an axis has the elevations of rings, few values, each of several points.
+/// @param values In order.
+bool IsElevation(const std::vector<double>& values, std::size_t num_points, double turn) {
+  constexpr std::size_t kMostRings = 256;
+  constexpr std::size_t kLeastPoints = 4;  // Of a ring, on average.
+  return std::max(-values.front(), values.back()) <= 0.25 * turn && values.size() > 1 &&
+         values.size() <= kMostRings && num_points >= kLeastPoints * values.size();
+}
+
+/// Whether one axis is never below 0 and another one as wide as most of a turn. (This is quick.)
+bool MayBePolar(const Positions& positions) {
+  Vector3 least = Vector3::Constant(std::numeric_limits<double>::infinity());
+  Vector3 most = -least;
+  for (const Vector3& position : positions) {
+    least = least.cwiseMin(position);
+    most = most.cwiseMax(position);
+  }
+  const auto is_turn = [](double width) {
+    return (width > 300.0 && width < 361.0) || (width > 5.0 && width < 6.3);
+  };
+  return least.maxCoeff() >= 0.0 &&
+         (is_turn(most.x() - least.x()) || is_turn(most.y() - least.y()) ||
+          is_turn(most.z() - least.z()));
 }
 
 /// The names of the axes that hold a range, an azimuth and an elevation; empty if they are those of
 /// a place.
 std::string PolarAxes(const Positions& positions) {
   constexpr std::size_t kSurePoints = 100;
-  if (positions.size() < kSurePoints) return {};
+  if (positions.size() < kSurePoints || !MayBePolar(positions)) return {};
   std::array<std::vector<double>, 3> axes;
   for (const Vector3& position : positions) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       axes.at(axis).push_back(position[static_cast<Eigen::Index>(axis)]);
     }
   }
+  for (std::vector<double>& axis : axes) axis = DifferentOf(std::move(axis));
   for (const double turn : {360.0, 2.0 * std::numbers::pi}) {
     std::array<std::size_t, 3> order = {0, 1, 2};
     do {
-      const auto& [range, azimuth, elevation] = order;
-      if (std::ranges::min(axes.at(range)) < 0.0 || !IsAzimuth(axes.at(azimuth), turn)) continue;
-      if (!IsElevation(axes.at(elevation), turn) || IsElevation(axes.at(range), turn)) continue;
+      const std::vector<double>& range = axes.at(order[0]);
+      const std::vector<double>& azimuth = axes.at(order[1]);
+      const std::vector<double>& elevation = axes.at(order[2]);
+      if (range.front() < 0.0 || !IsAzimuth(azimuth, turn)) continue;
+      if (!IsElevation(elevation, positions.size(), turn)) continue;
+      if (elevation.size() >= std::min(range.size(), azimuth.size())) continue;
       const auto name = [](std::size_t axis) { return std::string(1, "xyz"[axis]); };
-      return name(range) + " is like a range, " + name(azimuth) + " like an azimuth and " +
-             name(elevation) + " like an elevation in " + (turn == 360.0 ? "degrees" : "radians");
+      return name(order[0]) + " is like a range, " + name(order[1]) + " like an azimuth and " +
+             name(order[2]) + " like an elevation in " + (turn == 360.0 ? "degrees" : "radians");
     } while (std::ranges::next_permutation(order).found);
   }
   return {};
@@ -340,6 +359,7 @@ void CheckUnit(RecordedFrame& recorded) {
   constexpr double kMostLikely_m = 300.0;
   constexpr double kLeastRange_m = 50.0;  // Of all sensors that are known.
   constexpr std::size_t kSurePoints = 100;
+  if (!recorded.why_no_ranges.empty()) return;
   std::vector<double> ranges_m;
   for (const float range_m : recorded.frame.range_m) {
     if (std::isfinite(range_m)) ranges_m.push_back(double{range_m});
@@ -358,7 +378,7 @@ void CheckUnit(RecordedFrame& recorded) {
   }
   if (range_max_m > 0.0) {
     if (const auto far = CheckRanges(recorded, {}, range_max_m)) AddRemark(*far, recorded.remarks);
-  } else if (median_m > kMostLikely_m && recorded.origin_m.isZero()) {
+  } else if (median_m > kMostLikely_m) {
     AddRemark({.kind = RemarkKind::kUnitsAssumed,
                .place = recorded.name,
                .detail = "half of its ranges are beyond " + ShortText(median_m) + " m"},

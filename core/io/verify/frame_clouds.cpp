@@ -1,4 +1,4 @@
-#include "core/io/verify/frame_clouds.h"
+#include "core/io/verify/findings.h"
 
 #include <algorithm>
 #include <cmath>

@@ -94,7 +94,7 @@ TEST(UnknownRanges, AreInNoReportOfMapCoordinates) {
 TEST(UnknownRanges, AreKnownInTheAxesOfTheSensor) {
   MadeBag bag;
   const Ended stats = Analyze("stats " + WriteBag("lidar", bag).string() + " --format text");
-  EXPECT_THAT(stats.said, HasSubstr("Range noise on planes, 40 to 50 m"));
+  EXPECT_THAT(stats.said, HasSubstr("Range noise on planes, 50 to 60 m"));
 }
 
 }  // namespace

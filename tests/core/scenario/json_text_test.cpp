@@ -79,8 +79,8 @@ TEST_F(Override, SeveralSensorsTakeThePlaceOfOneAndBack) {
   const ScenarioSpec several = ReadOn(ScenariosDir() / "minimal.json",
                                       R"("lidars": [)" + Sensor("a") + ", " + Sensor("b") + "]");
   EXPECT_EQ(SensorNames(several), (std::vector<std::string>{"a", "b"}));
-  const ScenarioSpec one =
-      ReadOn(ScenariosDir() / "two_sensors.json", R"("interfaces": {}, "lidar": )" + Sensor("c"));
+  const ScenarioSpec one = ReadOn(ScenariosDir() / "two_sensors.json",
+                                  R"("interfaces": {"sensors": []}, "lidar": )" + Sensor("c"));
   EXPECT_EQ(SensorNames(one), std::vector<std::string>{"c"});
 }
 

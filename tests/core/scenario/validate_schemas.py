@@ -36,6 +36,15 @@ missing_type unknown_type string_for_number null_for_number number_for_flag list
 wrong_length fraction_for_whole negative_range not_a_choice unknown_effect no_channels no_tracks
 wrong_version no_version rain_twice camera_of_another_kind
 camera_out_of_limits motion_sensors_out_of_limits""".split()
+# Over a file, nested objects need not have their required keys.
+PARTIAL = {
+    "version": 1,
+    "file": "base.json",
+    "lidar": {"scan": {"rate_hz": 5}, "velocity": {"max_mps": 30}},
+    "camera": {"width_px": 640},
+    "world": {"alignment": {"gauge_mm": 1000, "map": {"latitude_deg": 48}}},
+    "vehicle": {"motion": {"path": {"speed_mps": 3}}},
+}
 
 num_failures = 0
 
@@ -58,5 +67,9 @@ for name in REFUSED:
     file = scenarios / "malformed" / "read" / f"{name}.json"
     if validators["scenario"].is_valid(json.loads(file.read_text())):
         fail(f"{file}: passes")
+for error in validators["scenario"].iter_errors(PARTIAL):
+    fail(f"a part over a file: {error.json_path}: {error.message[:200]}")
+if validators["scenario"].is_valid({key: part for key, part in PARTIAL.items() if key != "file"}):
+    fail("a part without a file passes")
 print(f"{len(validators)} schemas, {num_files} files, {len(REFUSED)} faults: {num_failures} failures")
 sys.exit(num_failures > 0)

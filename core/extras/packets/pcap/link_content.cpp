@@ -103,7 +103,7 @@ LinkContent GreContent(std::span<const char> gre) {
 // VXLAN (RFC 7348), also at the port that Linux has for it.
 LinkContent VxlanContent(std::span<const char> vxlan) {
   constexpr unsigned kHasNetwork = 8;
-  if (vxlan.size() < 8 || OctetAt(vxlan, 0) != kHasNetwork) return {};
+  if (vxlan.size() < 8 || (OctetAt(vxlan, 0) & kHasNetwork) == 0) return {};
   return EthernetContent(vxlan.subspan(8));
 }
 
@@ -129,6 +129,16 @@ LinkContent GtpContent(std::span<const char> gtp) {
     size += 4 * std::size_t{OctetAt(gtp, size)};
   }
   return IpContent(Behind(gtp, size));
+}
+
+// TZSP, as MikroTik's routers send: a header of 4 bytes, and fields up to the one of type 1.
+LinkContent TzspContent(std::span<const char> tzsp) {
+  if (tzsp.size() < 5 || OctetAt(tzsp, 0) != 1 || BigAt(tzsp, 2) != 1) return {};
+  std::size_t size = 4;
+  while (size + 1 < tzsp.size() && OctetAt(tzsp, size) != 1) {
+    size += OctetAt(tzsp, size) == 0 ? 1 : 2 + std::size_t{OctetAt(tzsp, size + 1)};
+  }
+  return EthernetContent(Behind(tzsp, size + 1));
 }
 
 /// The protocol of what a packet of IP carries in one piece, and that, as far as it is there.
@@ -163,6 +173,8 @@ LinkContent TunnelledIn(const LinkContent& outer) {
       return GeneveContent(payload);
     case 2152:
       return GtpContent(payload);
+    case 37008:
+      return TzspContent(payload);
     default:
       return {};
   }

@@ -178,8 +178,8 @@ struct CapturedDatagram {
 ///
 /// Packets are frames of Ethernet, what Linux captures on several interfaces at once (`-i any`, SLL
 /// and SLL2), those of loopback devices, or IP alone. Those that carry others in VXLAN, Geneve, GRE
-/// (with ERSPAN, too), GTP or IP, as mirrored ports do, are taken for what they carry. A capture
-/// that ends within a packet, as one whose program was killed, is read up to that.
+/// (with ERSPAN, too), GTP, TZSP or IP, as mirrored ports do, are taken for what they carry. A
+/// capture that ends within a packet, as one whose program was killed, is read up to that.
 class PcapReader {
  public:
   /// @throws InputError "file: reason" if the file is not a capture of such packets.

@@ -210,7 +210,7 @@ TEST(ParsePcdFile, ReadsNumbersAsOtherProgramsWriteThem) {
     VisitField(cloud, *cloud.Find("x"), [&](std::size_t, auto value) {
       num_finite += std::isfinite(static_cast<double>(value)) ? 1 : 0;
     });
-    EXPECT_EQ(num_finite, 5U) << words;
+    EXPECT_EQ(num_finite, 2U) << words;
   }
 }
 

@@ -312,13 +312,14 @@ TEST(CloudRecording, TakesTheFilesOfADirectoryInNaturalOrder) {
   }
   const auto recording = OpenRecording(directory.path());
   EXPECT_EQ(recording->info().kind, "directory of point clouds");
-  EXPECT_EQ(recording->info().num_frames, 4U);
+  EXPECT_EQ(recording->info().num_frames, 3U);
   std::vector<std::string> names;
   for (const RecordedFrame& recorded : ReadAll(*recording)) {
     names.push_back(std::filesystem::path(recorded.name).filename());
     EXPECT_EQ(recorded.frame.index, names.size() - 1);
   }
-  EXPECT_THAT(names, testing::ElementsAre("scan9.ply", "scan09b.ply", "scan10.ply", "scan100.ply"));
+  // scan09b is of another series.
+  EXPECT_THAT(names, testing::ElementsAre("scan9.ply", "scan10.ply", "scan100.ply"));
 }
 
 TEST(CloudRecording, OfAReceivedStreamHasItsPoses) {

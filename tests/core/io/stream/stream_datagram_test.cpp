@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/base/random.h"
+#include "core/io/write_file.h"
 #include "tests/core/io/stream/stream_example.h"
 
 namespace railcast {

@@ -139,7 +139,7 @@ TEST_F(VerifyDatasetTest, ReadsTheSequencesAndTheMergedCloudsOfSeveralSensors) {
   WriteFileWhole(scenario / "notes.txt", "mine");
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("000001/roof/frames/000002.pcd: must have "),
                                     HasSubstr("000001/merged/frames/000000.pcd: must have "),
-                                    HasSubstr("000001/notes.txt: belongs to no sequence")));
+                                    HasSubstr("000001/notes.txt: belongs to none of")));
 }
 
 using Faults = std::vector<std::string>;

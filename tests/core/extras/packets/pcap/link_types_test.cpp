@@ -104,6 +104,7 @@ std::vector<std::string> TunnelsWith(const std::string& ip) {
       EthernetOf(OuterUdp(2152, "\x30\xFF" + Big16(ip.size()) + number + ip)),
       EthernetOf(OuterUdp(2152, "\x34\xFF" + Big16(8 + ip.size()) + number +
                                     std::string("\0\1\0\x85\1\x10\5\0", 8) + ip)),
+      EthernetOf(OuterUdp(37008, std::string("\1\0\0\1\0\x0A\1\x42\1", 9) + frame)),
       EthernetOf(OuterGre(0, 0x6558, frame)),
       EthernetOf(OuterGre(0xB000, 0x0800, number + number + number + ip)),
       EthernetOf(OuterGre(0, 0x88BE, frame)),
@@ -132,7 +133,7 @@ TEST(PcapReader, ReadsWhatMirroredPortsAndTunnelsCarry) {
 // What only goes to such a port is no tunnel.
 TEST(PcapReader, TakesNoOtherDatagramsForTunnels) {
   const TemporaryDirectory directory;
-  for (const std::size_t port : {4789U, 8472U, 6081U, 2152U}) {
+  for (const std::size_t port : {4789U, 8472U, 6081U, 2152U, 37008U}) {
     const std::string payload = std::string("\x08\xEE\xFF", 3) + std::string(1203, '\x55');
     const std::string frame = EthernetOf(IpOf(payload, '\xC9', 2368, port));
     EXPECT_EQ(PayloadsIn(WriteCapture(directory.path() / "a.pcap", {{frame}})).payloads,

@@ -28,13 +28,16 @@ std::string Box(const std::string& place) {
          "}]";
 }
 
+/// So that there is no remark on the rung.
+const std::string kNamedRung = R"("fidelity": "plausibility", )";
+
 /// The objects of a plan for a run eastwards at 20 m/s, or the message about what is wrong.
 struct PlannedRun {
   explicit PlannedRun(const std::string& rest,
                       const std::string& recording = "{}",
                       const std::vector<PosedCloud>& clouds = StraightRun(30, 20.0)) {
     const fs::path source = WriteReceived(folder.path() / "run", clouds);
-    const fs::path file = WritePlan(folder.path(), recording, rest, VelodyneOfPlan());
+    const fs::path file = WritePlan(folder.path(), recording, rest, VelodyneOfPlan() + kNamedRung);
     message = MessageOf([&] { plan = ReadInsertPlan(file, source); });
     for (std::size_t at = 0; (at = message.find(folder.path().string() + "/")) != message.npos;) {
       message.erase(at, folder.path().string().size() + 1);
@@ -143,8 +146,9 @@ TEST(InsertPlan, ASensorThatStandsHasItsVehicleAtTheOrigin) {
   for (const std::string name : {"0.pcd", "1.pcd"}) {
     fs::copy_file(folder.path() / "received/cloud.pcd", folder.path() / "clouds" / name);
   }
-  const fs::path file = WritePlan(folder.path(), R"({"poses": "standing"})",
-                                  Box(R"("s_m": -30, "d_m": 0, "h_m": 1)"), VelodyneOfPlan());
+  const fs::path file =
+      WritePlan(folder.path(), R"({"poses": "standing"})", Box(R"("s_m": -30, "d_m": 0, "h_m": 1)"),
+                VelodyneOfPlan() + kNamedRung);
   const InsertPlan plan = ReadInsertPlan(file, folder.path() / "clouds");
   EXPECT_TRUE(plan.world->WorldFromVehicle(50'000'000).isApprox(Transform::Identity()));
   EXPECT_LT((plan.world->WorldFromObject(0, 0).translation() - Vector3(-30, 0, 1)).norm(), 1e-9);
@@ -162,7 +166,8 @@ TEST(InsertPlan, FindsLineGroundAndSensorOfASequence) {
       folder.path(), "{}",
       R"(, "objects": [{"name": "box", "type": "box", "size_m": [0.5, 0.5, 0.5], "s_m": 30, )"
       R"("d_m": 4, "frame": 10}, {"name": "flag", "type": "box", "size_m": [1, 1, 1], "s_m": 50, )"
-      R"("d_m": -2, "h_m": 1.5}])");
+      R"("d_m": -2, "h_m": 1.5}])",
+      kNamedRung);
   const InsertPlan plan = ReadInsertPlan(file, folder.path() / "run");
   const auto world = MakeWorld(made.scenario);
   const Vector3 flag = world->alignment().WorldFromTrack(300.0, -2.0, 1.5).translation();
@@ -270,8 +275,8 @@ TEST(InsertPlan, FindsTheSensorOfACaptureAndTheGroundAboutIt) {
   const fs::path capture = RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula/vls128_single.pcap";
   if (!fs::exists(capture)) GTEST_SKIP() << "needs " << capture;
   const TemporaryDirectory folder;
-  const fs::path file =
-      WritePlan(folder.path(), R"({"poses": "standing"})", Box(R"("x_m": 8, "y_m": 0)"));
+  const fs::path file = WritePlan(folder.path(), R"({"poses": "standing"})",
+                                  Box(R"("x_m": 8, "y_m": 0)"), kNamedRung);
   const InsertPlan plan = ReadInsertPlan(file, capture);
   EXPECT_EQ(plan.scenario.lidar.name, "VLS-128");
   EXPECT_EQ(plan.remarks.at(0),
