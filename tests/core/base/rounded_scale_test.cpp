@@ -36,7 +36,7 @@ bool IsOne(const RoundedScale& scale, double per_one, double step) {
   // Five standard errors of the samples, which become more where the step is coarse.
   EXPECT_NEAR(scale.value / per_one, 1.0, 0.06 + 0.01 * step);
   if (step <= 2.0) {
-    EXPECT_LT((scale.high - scale.low) / per_one, 0.15);
+    EXPECT_LT((scale.high - scale.low) / per_one, 0.35);
   }
   return scale.low <= per_one && scale.high >= per_one;
 }
