@@ -46,6 +46,8 @@ Reading ReadMapWhole(const std::filesystem::path& file) {
   return reading;
 }
 
+// A key may have a list of values.
+constexpr const char* kLists = "each value of a list holds";
 constexpr const char* kNoHeights = "a map without heights is one";
 
 std::string Utf16(const std::string& text, bool has_mark, bool is_big_endian) {
@@ -171,6 +173,10 @@ TEST(MapMutants, OfOsmXmlAreNeverReadWrongWithoutAWord) {
   exchanged = AllReplaced(AllReplaced(exchanged, " lon=", " lat="), " LAT=", " lon=");
   mutants.Try("latitudes and longitudes exchanged", "", exchanged);
   mutants.Excuse("the name of a key in other letters", "of things beside tracks many are not read");
+  for (const char* change : {"a track with a blank", "a track with a blank everywhere",
+                             "a track of several values", "a track of several values everywhere"}) {
+    mutants.Excuse(change, kLists);
+  }
   CheckSection("OpenStreetMap's XML", {&mutants});
 }
 
@@ -224,6 +230,8 @@ TEST(MapMutants, OfOverpassAreNeverReadWrongWithoutAWord) {
   for (const char* id : {"1", "2", "3"})
     words.push_back({"an id twice", "\"id\": 5", std::string("\"id\": ") + id});
   TryChanges(mutants, words);
+  mutants.Excuse("a track of several values", kLists);
+  mutants.Excuse("a track of several values everywhere", kLists);
   CheckSection("Overpass", {&mutants});
 }
 
