@@ -114,10 +114,26 @@ Estimate LogHistogram::RobustScale() const {
     if (negative_[i] > 0) distances.emplace_back(std::abs(-MiddleOf(i) - median), negative_[i]);
   }
   std::sort(distances.begin(), distances.end());
-  std::uint64_t up_to = 0;
-  for (const auto& [distance, count] : distances) {
-    up_to += count;
-    if (up_to >= (num_ + 1) / 2) return RobustScaleEstimate(kMadToSigma * distance, num_);
+  // Half of the samples of a bin count as nearer than its middle, which also holds where steps too
+  // fine to be seen put samples into few bins.
+  const double half = 0.5 * static_cast<double>(num_);
+  std::pair<double, double> before{};  // A distance and the number of samples that are nearer.
+  double nearer = 0.0;
+  for (auto bin = distances.begin(); bin != distances.end();) {
+    const double distance = bin->first;
+    double count = 0.0;
+    for (; bin != distances.end() && bin->first == distance; ++bin) {
+      count += static_cast<double>(bin->second);
+    }
+    const double up_to = nearer + 0.5 * count;
+    if (up_to >= half || bin == distances.end()) {
+      const double share =
+          up_to > before.second ? (half - before.second) / (up_to - before.second) : 1.0;
+      return RobustScaleEstimate(
+          kMadToSigma * std::lerp(before.first, distance, std::clamp(share, 0.0, 1.0)), num_);
+    }
+    before = {distance, up_to};
+    nearer += count;
   }
   return NotEnough(num_);
 }

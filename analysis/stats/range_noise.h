@@ -93,7 +93,7 @@ class TemporalNoise {
   /// Differences in one bin of range.
   struct Bin {
     Scatter differences_m;
-    Moments step_m;  ///< RangeStep_m() of the pairs that have one.
+    Moments step_m;  ///< Of the ranges, by the changes of the pairs that show it.
 
     static auto Sums(auto& of) { return std::tie(of.differences_m, of.step_m); }
     [[nodiscard]] Estimate Sigma_m() const;

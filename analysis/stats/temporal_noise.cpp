@@ -1,12 +1,16 @@
 #include "analysis/stats/range_noise.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "analysis/report/words.h"
 #include "analysis/stats/bins.h"
+#include "core/base/rounded_scale.h"
 #include "core/base/text.h"
 #include "core/io/recording/column_finder.h"
 #include "core/io/recording/range_step.h"
@@ -36,6 +40,19 @@ std::optional<double> Slope_m(const RecordedFrame& recorded, std::size_t row, st
   // Negated so that NaN fails, too.
   if (!(std::abs(bend_m) < kMostBend_m && std::abs(slope_m) < kMostSlope_m)) return std::nullopt;
   return slope_m;
+}
+
+/// The step of ranges by their changes from turn to turn, which show finer ones than differences of
+/// neighbours do, since surfaces' slopes are not in them. 0 where none shows, as where none
+/// changes.
+double StepOfChanges(std::vector<double> changes) {
+  if (changes.empty()) return 0.0;
+  std::vector<double> sorted = changes;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::ranges::nth_element(sorted, middle);
+  // It is one of the changes, so that the others differ from it by whole steps.
+  for (double& change : changes) change -= *middle;
+  return FindStep(changes);
 }
 
 }  // namespace
@@ -80,9 +97,7 @@ void TemporalNoise::Add(const RecordedFrame& earlier,
   }
   ++num_pairs_;
   bins_.resize(RangeBins().size());
-  if (const double step_m = RangeStep_m(later); step_m > 0.0) {
-    for (Bin& bin : bins_) bin.step_m.Add(step_m);
-  }
+  std::vector<double> changes_m;
   const ColumnFinder finder(*earlier_scan);
   // Azimuth step per column, signed by the rotor's direction.
   const auto& azimuths_rad = earlier_scan->column_azimuth_rad;
@@ -100,12 +115,17 @@ void TemporalNoise::Add(const RecordedFrame& earlier,
       const auto later_slope_m = Slope_m(later, row, column);
       if (!slope_m || !later_slope_m) continue;
       const double range_m = RangeAt_m(earlier, row, found->column);
-      const double difference_m =
-          RangeAt_m(later, row, column) - range_m - offset * 0.5 * (*slope_m + *later_slope_m);
+      const double change_m = RangeAt_m(later, row, column) - range_m;
+      const double difference_m = change_m - offset * 0.5 * (*slope_m + *later_slope_m);
+      changes_m.push_back(change_m);
       const auto bin = RangeBins().Find(range_m);
       if (bin) bins_[*bin].differences_m.Add(difference_m);
     }
   }
+  double step_m = StepOfChanges(std::move(changes_m));
+  if (step_m == 0.0) step_m = RangeStep_m(later);
+  if (step_m == 0.0) return;
+  for (Bin& bin : bins_) bin.step_m.Add(step_m);
 }
 
 Section TemporalNoise::MakeSection() const {

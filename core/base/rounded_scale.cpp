@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "core/base/median.h"
@@ -142,6 +143,37 @@ double Crossing(const std::function<double(double)>& function, double from, doub
   return std::sqrt(from * to);
 }
 
+/// The mean cosine of samples at one multiple of a frequency after the other, by the recurrence of
+/// Chebyshev's polynomials, which takes a tenth of the time of as many cosines.
+class CosineSums {
+ public:
+  CosineSums(const std::vector<double>& samples, double frequency)
+      : width_(frequency), before_(samples.size(), 1.0) {
+    for (const double sample : samples) {
+      now_.push_back(std::cos(kTurn * frequency * sample));
+      twice_first_.push_back(2.0 * now_.back());
+    }
+  }
+
+  void Next() {
+    ++times_;
+    for (std::size_t i = 0; i < now_.size(); ++i) {
+      before_[i] = twice_first_[i] * now_[i] - before_[i];
+    }
+    std::swap(now_, before_);
+  }
+
+  [[nodiscard]] double frequency() const { return times_ * width_; }
+  [[nodiscard]] double Mean() const {
+    return std::reduce(now_.begin(), now_.end()) / static_cast<double>(now_.size());
+  }
+
+ private:
+  double width_;
+  double times_ = 1.0;
+  std::vector<double> now_, before_, twice_first_;
+};
+
 /// The highest place of a function: the best of some, of logarithms, and golden section about it.
 double Highest(const std::function<double(double)>& function, double from, double to) {
   constexpr int kPlaces = 40;
@@ -201,8 +233,8 @@ void RoundedSamples::Add(const RoundedSamples& others, double weight) {
 }
 
 RoundedScale FindRoundedScale(const std::vector<RoundedSamples>& samples, RoundedValues rounded) {
-  // Half of the 95 % quantile of chi-squared, 1.92, times the square of 1.16: which samples count is
-  // found by themselves, which spreads the value by so much more (of 2,000 simulated ones).
+  // Half of the 95 % quantile of chi-squared, 1.92, times the square of 1.16: which samples count
+  // is found by themselves, which spreads the value by so much more (of 2,000 simulated ones).
   constexpr double kDrop = 2.6;
   constexpr double kHidden = 0.55;
   const RoundedSamples& most = *std::ranges::max_element(samples, {}, &RoundedSamples::num);
@@ -260,14 +292,14 @@ double FindStep(const std::vector<double>& samples) {
   bool has_risen = false;
   double best = 0.0;
   double best_frequency = 0.0;
-  for (double frequency = width; frequency < kFinest / middle; frequency += width) {
-    const double now = share(frequency);
+  for (CosineSums sums(near, width); sums.frequency() < kFinest / middle; sums.Next()) {
+    const double now = sums.Mean();
     has_risen = has_risen || now > before;
     before = now;
     // A multiple of the frequency has the same peak.
     if (!has_risen || now < 1.15 * best) continue;
     best = now;
-    best_frequency = frequency;
+    best_frequency = sums.frequency();
   }
   if (best == 0.0) return 0.0;
   const double frequency = Highest(share, best_frequency - width, best_frequency + width);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <utility>
 
 #include "core/base/input_file.h"
@@ -124,17 +125,22 @@ std::optional<MemberList> JsonSource::Members(const Node& node) {
   if (is_name) return list;
   // Read the object's own keys even if its base file cannot be read.
   if (!list) list = MemberList{{}, false};
+  // An object may have 200,000 keys, so that none is searched for among all the others.
+  std::map<std::string_view, std::shared_ptr<const Node>> own_keys;
+  for (const auto& [key, value] : node.json->items()) own_keys.emplace(key, nullptr);
+  std::erase_if(list->members, [&](const Member& member) {
+    const auto own = own_keys.find(member.key);
+    if (own == own_keys.end()) return false;
+    own->second = std::make_shared<const Node>(member.value);
+    return true;
+  });
   for (Member& member : list->members) ++member.layer;
   for (const auto& [key, value] : node.json->items()) {
     if (key == "file" || IsOfFile(node, key)) continue;
-    Member own{key, node.Child(key, value)};
-    sources_.Add(own.value.resolved_pointer, own.value.file->shown, own.value.pointer);
-    const auto replaced = std::ranges::find(list->members, key, &Member::key);
-    if (replaced != list->members.end()) {
-      own.value.beneath = std::make_shared<const Node>(std::move(replaced->value));
-      list->members.erase(replaced);
-    }
-    list->members.push_back(std::move(own));
+    Node child = node.Child(key, value);
+    sources_.Add(child.resolved_pointer, child.file->shown, child.pointer);
+    child.beneath = std::move(own_keys.at(key));
+    list->members.push_back({key, std::move(child)});
   }
   return list;
 }

@@ -222,7 +222,8 @@ void FitNoise(RecordedTrials& trials, const FitSettings& settings, FitResult& re
   std::vector<NoiseTrial> noise_trials = trials.noise;
   const std::size_t num_before = result.parameters.size();
   if (sigma_m.is_enough() && !of_steps.empty()) {
-    TakeOutSteps(trials, sigma_m.value, result.is_from_turn_to_turn, noise_trials);
+    TakeOutSteps(trials, sigma_m.value, result.is_from_turn_to_turn, settings.is_physical,
+                 noise_trials);
   }
   if (settings.is_physical) {
     std::vector<double> inverse_snr;

@@ -44,10 +44,12 @@ bool TakeChanges(RecordedTrials& trials);
                                bool is_from_turn_to_turn);
 
 /// Takes the steps of ranges out of the residuals, so that models can be fitted to them: spreads
-/// each over its step, and scales all so that their robust deviation is that before rounding.
+/// each over its step, and scales all so that fits of a constant give that before rounding.
+/// @param is_physical Whether FitSignalNoise() follows, else FitLinearNoise().
 void TakeOutSteps(const RecordedTrials& trials,
                   double sigma_m,
                   bool is_from_turn_to_turn,
+                  bool is_physical,
                   std::vector<NoiseTrial>& noise);
 
 /// sigma = sigma0 + sigma1 R, both >= 0.

@@ -194,20 +194,20 @@ Estimate NoiseOf(std::vector<double> residuals_m, double step_m, bool is_from_tu
 void TakeOutSteps(const RecordedTrials& trials,
                   double sigma_m,
                   bool is_from_turn_to_turn,
+                  bool is_physical,
                   std::vector<NoiseTrial>& noise) {
   constexpr double kGolden = 0.6180339887498949;
   const double step_m = ResidualStep_m(trials.step_m, is_from_turn_to_turn);
-  std::vector<double> spread_m;
   for (std::size_t i = 0; i < noise.size(); ++i) {
     const double turn = kGolden * static_cast<double>(i);
-    spread_m.push_back(static_cast<double>(noise[i].residual_m) +
-                       step_m * (turn - std::floor(turn) - 0.5));
+    noise[i].residual_m += static_cast<float>(step_m * (turn - std::floor(turn) - 0.5));
   }
-  std::vector<double> sorted_m = spread_m;
-  const double scale = sigma_m / PlainRobustScale(sorted_m);
-  for (std::size_t i = 0; i < noise.size(); ++i) {
-    noise[i].residual_m = static_cast<float>(scale * spread_m[i]);
-  }
+  // What is left of the steps is not normal: the scale is that of the estimator that follows.
+  ScaleProblem whole = MakeProblem(noise, 1);
+  whole.is_square = is_physical;
+  const double found = FitScale(std::move(whole)).coefficients[0];
+  const double scale = sigma_m / (is_physical ? std::sqrt(found) : found);
+  for (NoiseTrial& trial : noise) trial.residual_m *= static_cast<float>(scale);
 }
 
 bool TakeChanges(RecordedTrials& trials) {

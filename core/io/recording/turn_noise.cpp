@@ -117,8 +117,8 @@ JackknifedFigure RoundedDeviationOf(const BySector& differences, const BySector&
   return figure;
 }
 
-/// Takes the deviation before rounding for the robust one, where steps are no smaller than that,
-/// and all turns have them.
+/// Takes the deviation before rounding for the robust one, where steps are so coarse that they
+/// change it by 0.4 % or more, and all turns have them.
 void SeeThroughSteps(const BySector& differences,
                      const BySector& steps,
                      TurnNoise::Deviations& deviations) {
@@ -127,7 +127,8 @@ void SeeThroughSteps(const BySector& differences,
     if (steps.at(sector).size() != differences.at(sector).size()) return;
     all.insert(all.end(), steps.at(sector).begin(), steps.at(sector).end());
   }
-  if (!(MedianOf(all) >= deviations.robust.value)) return;
+  constexpr double kFine = 0.3;  // Of the deviation.
+  if (!(MedianOf(all) >= kFine * deviations.robust.value)) return;
   deviations.robust = RoundedDeviationOf(differences, steps);
 }
 

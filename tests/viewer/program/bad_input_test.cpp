@@ -92,7 +92,11 @@ TEST_F(BadInput, TruncatedFilesAreNamed) {
   ExpectFaultOf(
       "cut.pcd", pcd.substr(0, header + 1000),
       "POINTS: 28800 need " + std::to_string(pcd.size() - header) + " bytes, the file has 1000");
-  ExpectFaultOf("cut.bin", std::string(1601, '\0'), "must have 16 bytes for each point (got 1601)");
+  ExpectFaultOf(
+      "cut.bin", std::string(1601, '\0'),
+      "must have 16 bytes for each point (got 1601); nor those of 3, 5, 6, 7, 8, 12 or "
+      "16 numbers, of 4 of float64, or of rows; --kitti-columns N takes N numbers a point "
+      "as they are");
   ExpectFaultOf("cut.ply",
                 "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\n"
                 "property float y\nproperty float z\nend_header\n123456789012",

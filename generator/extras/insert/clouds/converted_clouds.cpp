@@ -68,12 +68,6 @@ class ConvertedClouds : public RecordingOutput {
   [[nodiscard]] WrittenFrame Encode(const RecordedFirings& /*firings*/,
                                     const InsertedFrame& inserted,
                                     std::uint32_t frame) const override {
-    if (!inserted.recorded.origin_m.isZero()) {
-      throw InputError(inserted.recorded.name +
-                       ": must keep its positions, which are far from 0 as in a national grid, by "
-                       "--format same (got " +
-                       std::string(format_.name) + ")");
-    }
     const std::set<std::uint32_t> moving = MovingInstances(inserted.objects);
     const Frame whole = WholeFrame(inserted, labels_);
     const FrameFileSpec spec = {.format = &format_,

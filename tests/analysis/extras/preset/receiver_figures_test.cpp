@@ -121,7 +121,7 @@ TEST(ReceiverFigures, AreThoseOfAMadeRecording) {
 // it is not what is measured, and the interval holds the truth.
 TEST(ReceiverFigures, SeeThroughSteps) {
   const Truth truth{.noise = 0.03, .texture = 0.1, .range_noise_m = 0.002};
-  for (const double steps : {0.1, 1.0, 2.5, 5.0}) {
+  for (const double steps : {0.1, 0.3, 0.7, 1.0, 1.5, 2.5, 5.0}) {
     SCOPED_TRACE(steps);
     std::vector<RecordedFrame> turns = MakeTurns(truth);
     const auto round = [](float& value, double step) {

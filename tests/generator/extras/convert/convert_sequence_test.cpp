@@ -98,7 +98,9 @@ TEST(ConvertSequence, DoesNotSayWhyFiringsHaveNoPointWhereTheRecordingDoesNot) {
       ConvertAll({.recording = path("ply"), .directory = path("pcd"), .format = "pcd"});
   EXPECT_THAT(result.lost,
               testing::ElementsAre(testing::Key("values of outcome, not known without a point")));
-  ExpectSameFrames(ReadAll(path("pcd")), ReadAll(path("ply")));
+  std::vector<RecordedFrame> expected = ReadAll(path("ply"));
+  for (RecordedFrame& recorded : expected) recorded.fields.erase("outcome");
+  ExpectSameFrames(ReadAll(path("pcd")), expected);
 }
 
 TEST(ConvertSequence, GivesTheSameBytesHoweverItIsMade) {

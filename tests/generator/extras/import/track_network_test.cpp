@@ -78,7 +78,7 @@ TEST(TrackNetwork, CrossesALineToWhichTheRuleAloneGivesCant) {
 }
 
 /// A crossing with a turnout 10 m behind it, and yard tracks of which 30 and 54 m run along the
-/// line: three of eight switches were missing.
+/// line: three of eight switches were missing. Two more lie where the line ends.
 TEST(TrackNetwork, HasEachSwitchOnATrackInKarlsruhe) {
   const std::filesystem::path file =
       RAILCAST_SHARED_DATA_DIR "/osm_more/karlsruhe-kirchfeld.osm.pbf";
@@ -90,8 +90,10 @@ TEST(TrackNetwork, HasEachSwitchOnATrackInKarlsruhe) {
   LineWorld world = MakeLineWorld(map, track, line);
   AddSideTracks(map, track, line, {}, world);
   EXPECT_EQ(MakeStand(line.alignment, std::nullopt, world), std::nullopt);
-  EXPECT_EQ(world.quality.num_switches, 8U);
+  EXPECT_EQ(world.quality.num_switches, 10U);
   EXPECT_THAT(world.switches, SizeIs(8));
+  const auto is_at_end = [](const LeftOut& thing) { return thing.reason == kAtLinesEnd; };
+  EXPECT_EQ(std::ranges::count_if(world.left_out, is_at_end), 2);
   EXPECT_THAT(world.crossings, SizeIs(1));
 }
 
