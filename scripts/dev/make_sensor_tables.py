@@ -222,16 +222,16 @@ VLS128 = [
      "intensity_noise": 0.08, "channel_gain_variation": 0.19},
 ]
 XT32 = [
-    {"noise_sigma0_m": 0.004, "noise_sigma1": 0.0, "dropout_probability": 0.00005,
+    {"noise_sigma0_m": 0.003, "noise_sigma1": 0.0, "dropout_probability": 0.00005,
      "dark_dropout_probability": 0.042, "dark_dropout_intensity": 0.00115},
-    {"range_noise_floor_m": 0.0037, "channel_bias_sigma_m": 0.0, "pointing_jitter_deg": 0.0015,
-     "dead_time_ns": 2.6, "intensity_noise": 0.02, "channel_gain": 0.025},
+    {"range_noise_floor_m": 0.0026, "channel_bias_sigma_m": 0.0, "pointing_jitter_deg": 0.0015,
+     "dead_time_ns": 2.6, "intensity_noise": 0.014, "channel_gain": 0.025},
 ]
 QT128 = [
     {"noise_sigma0_m": 0.011, "noise_sigma1": 0.0, "dark_dropout_probability": 0.003,
      "dark_dropout_intensity": 0.04},
     {"range_noise_floor_m": 0.0077, "channel_bias_sigma_m": 0.0075, "pointing_jitter_deg": 0.0015,
-     "dead_time_ns": 2.6, "intensity_noise": 0.06, "channel_gain": 0.036,
+     "dead_time_ns": 2.6, "intensity_noise": 0.058, "channel_gain": 0.036,
      "channel_gain_variation": 0.039},
 ]
 

@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 /// The sensors of a folder whose sensors.json is missing or damaged, as far as their folders say.
 std::vector<SensorRecord> SensorsThere(const fs::path& directory) {
   std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(directory)) {
+  std::error_code error;  // The folder itself may be gone.
+  for (const auto& entry : fs::directory_iterator(directory, error)) {
     if (IsThere(entry.path() / kRunFile)) names.insert(entry.path().filename().string());
   }
   std::vector<SensorRecord> sensors;

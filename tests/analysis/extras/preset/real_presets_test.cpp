@@ -114,19 +114,19 @@ INSTANTIATE_TEST_SUITE_P(
     Captures,
     RealPreset,
     testing::Values(
-        Gate{"vlp16", "vlp16_dual", Sectors::kEven, kUnmeasured, kUnmeasured, 1.23, -0.0014},
-        Gate{"vlp16", "vlp16_dual", Sectors::kOdd, 0.042, 0.028, 1.10, -0.0038},
+        Gate{"vlp16", "vlp16_dual", Sectors::kEven, kUnmeasured, kUnmeasured, 1.18, -0.0014},
+        Gate{"vlp16", "vlp16_dual", Sectors::kOdd, 0.042, 0.028, 1.11, -0.0038},
         Gate{"vlp32c", "vlp32c_single", Sectors::kEven, 0.049, 0.018, 1.24, -0.0109},
-        Gate{"vlp32c", "vlp32c_single", Sectors::kOdd, 0.079, 0.048, 1.15, -0.0024},
-        Gate{"pandar64", "pandar64", Sectors::kEven, kUnmeasured, kUnmeasured, 0.96, 0.0},
-        Gate{"pandar64", "pandar64", Sectors::kOdd, kUnmeasured, kUnmeasured, 0.99, 0.0005},
-        Gate{"vls128", "vls128_single", Sectors::kEven, 0.133, 0.116, 1.11, -0.0006},
+        Gate{"vlp32c", "vlp32c_single", Sectors::kOdd, 0.079, 0.048, 1.25, -0.0024},
+        Gate{"pandar64", "pandar64", Sectors::kEven, kUnmeasured, kUnmeasured, 0.97, 0.0},
+        Gate{"pandar64", "pandar64", Sectors::kOdd, kUnmeasured, kUnmeasured, 0.98, 0.0005},
+        Gate{"vls128", "vls128_single", Sectors::kEven, 0.133, 0.116, 1.10, -0.0006},
         Gate{"vls128", "vls128_single", Sectors::kOdd, 0.109, 0.082, 1.10, -0.0021},
-        Gate{"xt32", "", Sectors::kEven, 0.049, 0.042, 0.94, 0.0},
-        Gate{"xt32", "", Sectors::kOdd, 0.016, 0.015, 0.92, 0.0},
+        Gate{"xt32", "", Sectors::kEven, 0.049, 0.042, 1.20, 0.0},
+        Gate{"xt32", "", Sectors::kOdd, 0.016, 0.015, 1.17, 0.0},
         // 16 of 8343 pairs are one echo, reported twice.
-        Gate{"qt128", "", Sectors::kEven, 0.032, 0.028, 0.99, 0.0, 16},
-        Gate{"qt128", "", Sectors::kOdd, 0.018, 0.014, 0.97, 0.0, 16}),
+        Gate{"qt128", "", Sectors::kEven, 0.032, 0.028, 1.19, 0.0, 16},
+        Gate{"qt128", "", Sectors::kOdd, 0.018, 0.014, 1.16, 0.0, 16}),
     [](const auto& test) {
       return test.param.sensor + (test.param.sectors == Sectors::kEven ? "_even" : "_odd");
     });
