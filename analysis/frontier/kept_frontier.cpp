@@ -18,6 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kIdentityFile = "run.txt";
+// Files of builds that did not measure the processor were "times_0" and so on.
+constexpr const char* kTimesFile = "spent";
 
 /// Appends values to bytes, or takes them from there.
 struct Writing {
@@ -155,7 +157,7 @@ std::vector<float> KeptFrontier::StepsOf(std::uint32_t index,
 std::vector<RowTimes> KeptFrontier::TimesOf(
     std::uint32_t index, const std::function<std::vector<RowTimes>()>& make) const {
   return Kept<std::vector<RowTimes>>(
-      FileOf("times", index), make,
+      FileOf(kTimesFile, index), make,
       [](const std::vector<RowTimes>& rows) {
         nlohmann::json json = nlohmann::json::array();
         for (const RowTimes& row : rows)
@@ -175,7 +177,7 @@ bool KeptFrontier::HasFrame(std::uint32_t index) const {
 }
 
 bool KeptFrontier::HasTimes(std::uint32_t index) const {
-  return !folder_.empty() && fs::exists(FileOf("times", index));
+  return !folder_.empty() && fs::exists(FileOf(kTimesFile, index));
 }
 
 void KeptFrontier::Remove() const {

@@ -77,9 +77,10 @@ void JudgeFigure(const FrameFigure& figure, std::vector<InspectedFrame>& frames)
   if (values.size() < kFewest) return;
   const double median = MedianOf(values);
   const double spread = PlainRobustScale(values);
-  const double least_off = figure.least_off > 0.0
-                               ? figure.least_off
-                               : std::max(kShare * median, kOfChance * std::sqrt(median));
+  const double least_off =
+      figure.least_off > 0.0
+          ? figure.least_off
+          : std::max(kShare * median, kOfChance * std::sqrt(std::max(median, 1.0)));
   const double most = std::max(kMost * spread, least_off);
   for (InspectedFrame& frame : frames) {
     const double value = figure.value(frame);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "core/base/error.h"
@@ -146,10 +147,11 @@ class RingSums {
 };
 
 /// Puts together what single frames show of the sensor, but for odd ones.
+/// @param searches Of the first frames.
 SensorSearch SensorWithoutOdd(const std::vector<InspectedFrame>& frames,
                               const std::vector<SensorSearch>& searches) {
-  const bool are_all_odd =
-      std::ranges::all_of(frames, [](const InspectedFrame& frame) { return frame.has_odd_points; });
+  const bool are_all_odd = std::ranges::all_of(std::span(frames).first(searches.size()),
+                                               &InspectedFrame::has_odd_points);
   SensorSearch sensor;
   for (std::size_t i = 0; i < searches.size(); ++i) {
     if (are_all_odd || !frames[i].has_odd_points) sensor.Add(searches[i]);

@@ -105,7 +105,8 @@ struct RecordingLook {
   /// Of the frames whose grids have as many rows as most: rows that are told by elevations have
   /// other numbers where a ring is missing.
   std::vector<InspectedRing> rings;
-  /// What the points show of the first ten frames whose points are not odd.
+  /// What the points show of the first ten frames whose points are not odd; of the first ten if
+  /// those of the first twenty are all odd.
   SensorSearch sensor;
   std::vector<InspectedFrame> frames;
   double range_step_m{};  ///< Median of RangeStep_m().

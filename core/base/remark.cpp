@@ -14,6 +14,11 @@ RemarkReceiver& Receiver() {
   return receiver;
 }
 
+/// The cloud of a place that may name one of its points: "a.ply: point 3".
+std::string_view WithoutPoint(std::string_view place) {
+  return place.substr(0, place.rfind(": point "));
+}
+
 }  // namespace
 
 // NOLINTNEXTLINE(readability-function-size): a table
@@ -170,6 +175,15 @@ void AddRemark(const Remark& remark, std::vector<Remark>& remarks) {
     remarks.push_back(remark);
   } else {
     known->number += remark.number;
+    // Which fields of one cloud there are is what one wants to know.
+    constexpr std::size_t kLongest = 400;
+    const bool is_more = remark.kind == RemarkKind::kFieldsLeftOut &&
+                         WithoutPoint(remark.place) == WithoutPoint(known->place) &&
+                         !remark.detail.empty() &&
+                         known->detail.find(remark.detail) == std::string::npos;
+    if (is_more && known->detail.size() + remark.detail.size() < kLongest) {
+      known->detail += (known->detail.empty() ? "" : "; ") + remark.detail;
+    }
   }
 }
 

@@ -172,7 +172,8 @@ void BeamTracer::Blind(const CastFrame& frame, Work& work) const {
     // Glare is in proportion to the visible part of the disc and to 1 / angle^2, which is
     // 2 (1 - cosine) for so small an angle.
     const auto is_within = [&](double share) {
-      return cosine > static_cast<float>(1.0 - share * below_one);
+      // Products of unit vectors in float32 may exceed 1.
+      return share > 0.0 && cosine > static_cast<float>(1.0 - share * below_one);
     };
     is_blind[i] = is_within(1.0) && is_within(VisibleSun(frame, i, work));
     if (is_blind[i]) echoes.first.power_ratio[i] = 0.0F;

@@ -9,6 +9,7 @@
 #include "analysis/frontier/measure.h"
 #include "analysis/frontier/pareto.h"
 #include "core/base/error.h"
+#include "core/io/content_hash.h"
 #include "core/io/write_file.h"
 #include "railcast/effects.h"
 #include "tests/analysis/made_results.h"
@@ -78,6 +79,27 @@ TEST(KeptFrontier, RefusesWhatAnotherRunHasLeftAndMakesAnewWhatIsDamaged) {
   EXPECT_EQ(num_made, 1);
 }
 
+// Whose files had the lists of each row under names of their own.
+TEST(KeptFrontier, TimesAnewWhatEarlierBuildsHaveLeft) {
+  for (const char* const before :
+       {"[]", "[[]]", "[[[1.5], [1.0]]]", "[[[1.5], [1.0]], [[], []]]"}) {
+    const TemporaryDirectory directory;
+    const KeptFrontier kept(directory.path() / "kept", "a run");
+    WriteFileWhole(directory.path() / "kept" / "times_3", before + ContentHash(before));
+    EXPECT_FALSE(kept.HasTimes(3));
+    for (int i = 0; i < 2; ++i) {
+      int num_made = 0;
+      const auto times = kept.TimesOf(3, [&] {
+        ++num_made;
+        return std::vector<RowTimes>{{{2.0}, {1.0}, {1.9}}};
+      });
+      EXPECT_EQ(num_made, i == 0 ? 1 : 0);
+      EXPECT_EQ(times.at(0).processor_ms.at(0), 1.9);
+    }
+    EXPECT_TRUE(kept.HasTimes(3));
+  }
+}
+
 /// Stands for Ctrl-C.
 struct Stopped {};
 
@@ -123,10 +145,10 @@ TEST(MeasureFrontier, GoesOnWhereAnEarlierRunWasStopped) {
   // Of 2 frames and one on the way, 2.5 in all, what is left are the errors, 0.1 each, and the
   // frame on the way, 0.5.
   EXPECT_NEAR(KeptShare(plan, kept), 1.8 / 2.5, 1e-9);
-  const std::string times = ReadFileWhole(kept_folder / "times_0");
+  const std::string times = ReadFileWhole(kept_folder / "spent_0");
   const auto ignore = [](const std::string&, double) {};
   const auto resumed = measure(plan, kept, ignore);
-  EXPECT_EQ(ReadFileWhole(kept_folder / "times_0"), times) << "timed again";
+  EXPECT_EQ(ReadFileWhole(kept_folder / "spent_0"), times) << "timed again";
   const auto whole = measure(plan, KeptFrontier(), ignore);
   ASSERT_EQ(resumed.size(), whole.size());
   for (std::size_t i = 0; i < whole.size(); ++i) {

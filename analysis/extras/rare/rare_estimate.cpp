@@ -92,8 +92,9 @@ Estimate IntervalOf(double mean,
                     std::uint64_t num) {
   if (mean <= 0.0) return NotEnough(num);
   const auto quantile = [](double sum, double variance, double share) {
-    constexpr double kMostDegrees = 1e9;  // Where all terms are equal.
-    const double degrees = std::min(2.0 * sum * sum / variance, kMostDegrees);
+    constexpr double kMostDegrees = 1e9;  // Where all terms are equal, or too small to be squared.
+    const double degrees =
+        variance > 0.0 ? std::min(2.0 * sum * sum / variance, kMostDegrees) : kMostDegrees;
     return std::min(sum / degrees * ChiSquared(degrees, share), 1.0);
   };
   const double largest = *std::ranges::max_element(terms);
@@ -195,6 +196,14 @@ MetPart MetPartOf(const RareEvidence& evidence) {
   return met;
 }
 
+// The levels may cancel, or proposals meet nothing, where trials by p meet most of what fails.
+Estimate IntervalOfMet(const MetPart& met, std::uint64_t num) {
+  const double mean = met.mean();
+  if (mean > 0.0) return IntervalOf(mean, met.squared_error(), met.terms, num);
+  const double reach = NormalQuantile() * std::sqrt(met.squared_error());
+  return {mean, mean - reach, mean + reach, num};
+}
+
 // By the trials of one proposal alone, with their own weights.
 Estimate ByProposal(const WeightedTrials& trials) {
   std::vector<double> terms =
@@ -278,7 +287,7 @@ std::string UnknownText(double unknown) {
 }
 
 std::string RefusalOf(const RareFigure& figure, double mean, double unknown) {
-  std::string fault = figure.is_plain ? "" : FaultOfSearch(figure);
+  std::string fault = figure.rests_on_search ? FaultOfSearch(figure) : "";
   if (!fault.empty()) return fault;
   if (mean <= 0.0) return "the levels disagree by more than the probability";
   return unknown <= kMostUnknown * mean ? "" : UnknownText(unknown);
@@ -293,6 +302,7 @@ RareFigure EstimateRareFigure(const RareEvidence& evidence) {
   figure.correction = met.correction;
   figure.beyond = BeyondOf(evidence);
   figure.is_plain = IsPlain(evidence);
+  figure.rests_on_search = !figure.is_plain && figure.beyond.mean() <= met.mean();
   for (std::size_t i = 0; i < 2; ++i) figure.by_proposal[i] = ByProposal(evidence.cheap[i]);
   const std::uint64_t num_dearest = HasPairs(evidence) ? met.correction.num : met.cheap.num;
   const std::uint64_t num_failed = NumFailed(evidence);
@@ -311,11 +321,10 @@ RareFigure EstimateRareFigure(const RareEvidence& evidence) {
   if (sum > 0.0) figure.largest_share = *std::ranges::max_element(met.terms) / sum;
   figure.effective = EffectiveOf(met.terms);
   const std::uint64_t num = met.cheap.num + met.correction.num;
-  figure.refusal = RefusalOf(figure, met.mean(), unknown);
+  figure.refusal = RefusalOf(figure, met.mean() + figure.beyond.mean(), unknown);
   figure.probability = figure.met = NotEnough(num);
   if (!figure.is_known()) return figure;
-  figure.met = figure.is_plain ? Proportion(num_failed, num)
-                               : IntervalOf(met.mean(), met.squared_error(), met.terms, num);
+  figure.met = figure.is_plain ? Proportion(num_failed, num) : IntervalOfMet(met, num);
   figure.probability = figure.met;
   if (figure.beyond.num > 0) {
     figure.probability = Joined(figure.met, figure.beyond.share, 1.0, num);

@@ -259,7 +259,7 @@ class RareRunner {
     constexpr double kWantedEffective = 120.0;
     constexpr double kWantedLargest = 0.04;  // Share of one trial.
     const RareFigure& figure = run_.figure;
-    if (figure.is_plain) return for_error;
+    if (!figure.rests_on_search) return for_error;
     const auto num = static_cast<double>(level.num);
     return std::max({for_error, num * kWantedEffective / std::max(figure.effective, 1.0),
                      num * figure.largest_share / kWantedLargest});
@@ -267,8 +267,7 @@ class RareRunner {
 
   [[nodiscard]] double Mean() const {
     const RareFigure& figure = run_.figure;
-    const double beyond = figure.beyond.num > 0 ? figure.beyond.share.value : 0.0;
-    return figure.cheap.mean + figure.correction.mean + beyond;
+    return figure.cheap.mean + figure.correction.mean + figure.beyond.mean();
   }
 
   // Of the trials by proposals, with what those by p add to the mean.
@@ -305,22 +304,27 @@ class RareRunner {
            (error * error);
   }
 
-  // How many trials by p there should be.
-  [[nodiscard]] double WantedOwn() const {
-    // That of which none fails say that at most 3.7 / n do; that of failures as frequent as 3 / n
-    // one is met, with 95 %.
-    constexpr double kNoneOfMany = 3.689;
+  // How many trials by p are asked for: of failures as frequent as 3 / n, one is met, with 95 %.
+  [[nodiscard]] double Asked() const {
     constexpr double kRuleOfThree = 3.0;
+    return settings_.unseen ? std::ceil(kRuleOfThree / *settings_.unseen) : 0.0;
+  }
+
+  // How many trials by p there should be beside the proposals.
+  [[nodiscard]] double WantedOwn() const {
+    // That of which none fails say that at most 3.7 / n do.
+    constexpr double kNoneOfMany = 3.689;
     if (!HasModes()) return 0.0;
-    if (settings_.unseen) return std::ceil(kRuleOfThree / *settings_.unseen);
+    const auto for_error = [&] { return std::sqrt(VarianceBeyond() / DearestCost()) * Effort(); };
+    if (OnlyOwnFail()) return std::max(for_error(), Asked());
+    if (settings_.unseen) return Asked();
     const auto num_own = static_cast<double>(own_.indices.size());
     const auto num_pairs = static_cast<double>(pairs_.indices.size());
     const double others =
         (static_cast<double>(run_.trials.size()) - num_own - num_pairs) / DearestCost() + num_pairs;
     const double num_by_others = static_cast<double>(run_.figure.beyond.num) - num_own;
     if (Mean() <= 0.0) return num_by_others + others;
-    const double for_error = std::sqrt(VarianceBeyond() / DearestCost()) * Effort();
-    return std::min(std::max(for_error, kNoneOfMany / (settings_.precision * Mean())),
+    return std::min(std::max(for_error(), kNoneOfMany / (settings_.precision * Mean())),
                     num_by_others + others);
   }
 
@@ -331,16 +335,23 @@ class RareRunner {
     const double mean = Mean();
     const bool has_room = run_.trials.size() + settings_.num_per_stage <= settings_.most_trials;
     if (settings_.has_pairs || run_.figure.is_plain || !has_room) return false;
-    if (level.mean <= 0.0) return HasMetFailures();
+    if (level.mean <= 0.0) return HasLostFailures();
     const double error = settings_.precision * mean / NormalQuantile();
     const double lacking = WantedOf(level, std::sqrt(level.variance) * Effort()) -
                            static_cast<double>(level.num) +
                            std::max(WantedOwn() - static_cast<double>(run_.figure.beyond.num), 0.0);
-    return mean * (1.0 - mean) / (error * error) < lacking;
+    return std::max(mean * (1.0 - mean) / (error * error), Asked()) < lacking;
   }
 
-  [[nodiscard]] bool HasMetFailures() const {
-    return std::ranges::any_of(run_.scores,
+  // Whether nothing fails that the proposals draw, but some of what p draws does.
+  [[nodiscard]] bool OnlyOwnFail() const {
+    return run_.figure.cheap.mean <= 0.0 && run_.figure.beyond.num_more > 0 && Mean() > 0.0;
+  }
+
+  // Whether the searches met failures that nothing has met again.
+  [[nodiscard]] bool HasLostFailures() const {
+    return run_.figure.cheap.mean <= 0.0 && run_.figure.beyond.num_more == 0 &&
+           std::ranges::any_of(run_.scores,
                                [](const RareScores& scores) { return scores.cheap < 0.0; });
   }
 
@@ -365,9 +376,14 @@ class RareRunner {
     const RareFigure& figure = run_.figure;
     if (Room() <= 0.0) return std::nullopt;
     Numbers more{MoreOf(ByProposals(false), 1.0), MoreOf(ByProposals(true), DearestCost())};
-    if (figure.cheap.mean <= 0.0 && !settings_.has_pairs && HasMetFailures()) {
+    if (!settings_.has_pairs && HasLostFailures()) {
       more.num_cheap =
           static_cast<std::uint32_t>(std::min(3.0 * static_cast<double>(figure.cheap.num), Room()));
+    }
+    if (!HasModes()) {
+      const double lacking = std::clamp(Asked() - NumOf(settings_.has_pairs), 0.0, Room());
+      std::uint32_t& by_p = settings_.has_pairs ? more.num_pairs : more.num_cheap;
+      by_p = std::max(by_p, static_cast<std::uint32_t>(lacking));
     }
     more.num_cheap += more.num_cheap % 2;
     more.num_own = static_cast<std::uint32_t>(

@@ -57,6 +57,8 @@ struct RareBeyond {
   std::uint64_t num_fewer{};  ///< Of which the dear level says that they are none.
   /// (more - fewer) / num, with the exact intervals of both. What was not met at all is within it.
   Estimate share{};
+
+  [[nodiscard]] double mean() const { return num > 0 ? share.value : 0.0; }
 };
 
 /// The probability of failure.
@@ -74,6 +76,8 @@ struct RareFigure {
   RareLevel cheap{};
   RareLevel correction{};  ///< Dear minus cheap.
   bool is_plain{};         ///< Whether p has drawn all, on one level: a share of equal trials.
+  /// Whether the proposals meet as much of the probability as the rest, so that they must be sound.
+  bool rests_on_search{};
 
   [[nodiscard]] bool is_known() const { return refusal.empty(); }
 };
@@ -97,10 +101,10 @@ struct RareFigure {
 /// Methods in Medical Research 21).
 ///
 /// Of trials that p has drawn, on one level, it is the share that failed, with Wilson's interval.
-/// Otherwise there is no figure if the intervals of the two proposals do not overlap, if
-/// fewer than 100 weights are effective, or if one is more than 5 % of their sum; nor, in any case,
-/// if nothing failed, or if trials whose result is not known weigh more than a tenth of those that
-/// failed.
+/// Otherwise, unless the second part is the greater one, there is no figure if the intervals of the
+/// two proposals do not overlap, if fewer than 100 weights are effective, or if one is more than
+/// 5 % of their sum; nor, in any case, if nothing failed, or if trials whose result is not known
+/// weigh more than a tenth of those that failed.
 [[nodiscard]] RareFigure EstimateRareFigure(const RareEvidence& evidence);
 
 /// Number of plain trials whose interval is as wide as that of a figure.
@@ -150,8 +154,10 @@ struct RareRun {
 /// numbers go by sqrt(variance / cost) of a pilot (Giles 2015), until the interval has the width
 /// asked for. Trials by p, on the dearest level, then seek what the proposals miss: 3 / unseen of
 /// them, or until what they cannot exclude is within that width, but at most for the time of all
-/// others. On one level, p draws all anew where that takes fewer trials, or where failures that
-/// the searches met are not met again. The result is a function of the arguments and scores alone.
+/// others; where they alone meet failures, until the interval has that width. On one level, p draws
+/// all anew where that takes fewer trials, or where failures that the searches met are not met
+/// again; of these, too, there are 3 / unseen. The result is a function of the arguments and scores
+/// alone.
 /// @return Nothing if the experiment was stopped.
 [[nodiscard]] std::optional<RareRun> RunRareEvent(const std::vector<RareFactor>& factors,
                                                   const RareSettings& settings,

@@ -113,7 +113,7 @@ int RunRareCommand(const StudyOptions& options,
 void GiveUnseen(double unseen, StudySpec& study) {
   if (!study.rare) throw InputError("--unseen: must be with --rare");
   const double least = LeastUnseen(*study.rare);
-  if (unseen < least || unseen > kMostUnseen) {
+  if (!(unseen >= least && unseen <= kMostUnseen)) {
     throw InputError("--unseen: must be from " + NumberText(least) + " to " +
                      NumberText(kMostUnseen) + Got(unseen));
   }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <regex>
 #include <string>
 
@@ -47,10 +48,14 @@ class StudyVerifier : private Findings {
   void CheckApproaches() {
     const Shard shard = ParseShard(study_.shard).value_or(Shard{});
     const std::uint32_t num_own = shard.NumOf(study_.num_scenarios);
+    const bool is_rare = !study_.rare.empty();
     LineReader lines(directory_ / kApproachesFile);
     std::uint32_t num = 0;
     for (; const auto line = lines.Next(); ++num) {
-      on_progress_(static_cast<double>(num) / static_cast<double>(num_own));
+      // How many approaches rare failures take, only their run tells.
+      if (!is_rare) {
+        on_progress_(std::min(static_cast<double>(num) / static_cast<double>(num_own), 1.0));
+      }
       const std::string fault = LineHashFault(line->text);
       if (!fault.empty()) {
         faults_.Add({line->place, fault, ""});
@@ -64,8 +69,7 @@ class StudyVerifier : private Findings {
       faults_.Add({line->place, "must be the line of scenario " + NumberText(expected),
                    NumberText(*scenario)});
     }
-    // How many approaches rare failures take, only their run tells.
-    if (num == num_own || !study_.rare.empty()) return;
+    if (num == num_own || is_rare) return;
     faults_.Add({ShownPath(directory_ / kApproachesFile),
                  "must have a line for each of " + NumberText(num_own) + " approaches",
                  NumberText(num)});

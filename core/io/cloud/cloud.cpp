@@ -74,7 +74,7 @@ bool Cloud::AppendWords(const std::string& place, const std::vector<std::string_
         if (!parsed && field.name != kPaddingField) LeaveOutField(place, *word, field, remarks);
         const auto value = static_cast<Value>(parsed.value_or(Parsed{0}));
         if constexpr (std::is_same_v<Value, float>) {
-          const bool is_far = std::abs(*parsed) > kFarPosition_m;
+          const bool is_far = parsed && std::abs(*parsed) > kFarPosition_m;
           field.is_rounded = field.is_rounded || (is_far && double{value} != *parsed);
         }
         const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&value);

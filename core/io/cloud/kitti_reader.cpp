@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -176,7 +177,10 @@ bool AreRows(std::string_view bytes, std::size_t num_rows) {
   if (bytes.size() != num_points * num_rows * sizeof(float) || num_points < kLeastPoints) {
     return false;
   }
-  const std::size_t step = (num_points + kMostPoints - 1) / kMostPoints;
+  // Where the numbers stand side by side, a step prime to their columns meets all of them.
+  constexpr std::size_t kPrimesOfColumns = 2 * 3 * 5 * 7 * 11 * 13;
+  std::size_t step = (num_points + kMostPoints - 1) / kMostPoints;
+  while (std::gcd(step, kPrimesOfColumns) != 1) ++step;
   std::vector<float> numbers;
   std::vector<std::size_t> num_below(num_rows);
   for (std::size_t point = 0; point < num_points; point += step) {

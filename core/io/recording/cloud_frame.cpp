@@ -117,17 +117,21 @@ std::uint32_t ReturnsOf(const Cloud& cloud, const std::string& name) {
                    NumberText(cloud.width) + " of " + NumberText(returns) + ")");
 }
 
-std::vector<std::uint32_t> LoadRings(const Cloud& cloud, const std::string& name) {
+/// @param fault Says why there are none in a column that has the name.
+std::vector<std::uint32_t> LoadRings(const Cloud& cloud,
+                                     const std::string& name,
+                                     std::string& fault) {
   const CloudField* const ring = FindFieldOf(cloud, "ring");
   if (ring == nullptr) return {};
   try {
     return LoadIndices(cloud, *ring, std::numeric_limits<std::uint16_t>::max(), name);
-  } catch (const InputError&) {
-    return {};  // FillFrame() says why.
+  } catch (const InputError& error) {
+    fault = std::string(error.what()).substr(name.size() + 2);
+    return {};
   }
 }
 
-SlotPlan PlanOfCloud(const Cloud& cloud, const std::string& name) {
+SlotPlan PlanOfCloud(const Cloud& cloud, const std::string& name, std::vector<Remark>& remarks) {
   // A message may claim any number of rows without a point.
   if (cloud.height > 1 && cloud.width == 0) return LoosePlan(cloud, "it has no point");
   const bool is_ours = cloud.Find("ring") != nullptr && cloud.Find("column") != nullptr;
@@ -141,10 +145,15 @@ SlotPlan PlanOfCloud(const Cloud& cloud, const std::string& name) {
     return LoosePlan(cloud, "its points are those of several sensors");
   }
   if (is_ours) return PlacedPlan(cloud, name, std::nullopt);
-  const std::vector<std::uint32_t> rings = LoadRings(cloud, name);
+  std::string fault;
+  const std::vector<std::uint32_t> rings = LoadRings(cloud, name, fault);
   std::string why_not;
-  if (auto plan = MakeRingTable(LoadPositions(cloud), rings, &why_not)) return std::move(*plan);
-  return LoosePlan(cloud, why_not);
+  auto plan = MakeRingTable(LoadPositions(cloud), rings, &why_not);
+  if (!plan) return LoosePlan(cloud, why_not);  // FillFrame() tells the fault.
+  if (!fault.empty()) {
+    AddRemark({.kind = RemarkKind::kFieldsLeftOut, .place = name, .detail = fault}, remarks);
+  }
+  return std::move(*plan);
 }
 
 /// Fills in the times of the scan pattern, since slots without a point have no time of their own.
@@ -179,8 +188,8 @@ RecordedFrame MakeCloudFrame(const Cloud& cloud,
   recorded.remarks = CheckPositions(cloud, name);
   const std::string fault = FaultOfIntensities(cloud);
   if (!fault.empty()) throw InputError(name + ": " + fault);
-  const SlotPlan plan =
-      why_no_ranges.empty() ? PlanOfCloud(cloud, name) : LoosePlan(cloud, why_no_ranges);
+  const SlotPlan plan = why_no_ranges.empty() ? PlanOfCloud(cloud, name, recorded.remarks)
+                                              : LoosePlan(cloud, why_no_ranges);
   FillFrame(cloud, plan, recorded);
   if (why_no_ranges.empty() && !recorded.origin_m.isZero()) {
     recorded.why_no_ranges =

@@ -88,7 +88,14 @@ std::vector<std::string_view> OriginalsOf(std::string_view stem) {
   if (stem.rfind(" - ") != std::string_view::npos) add_before(stem.rfind(" - "));
   const std::string lower = LowerCase(stem);
   for (const std::string_view word : {"cop", "kop"}) {  // "Copy", "copie", "Kopie", "kopia" ...
-    if (lower.starts_with(word)) originals.push_back(stem.substr(stem.rfind(' ') + 1));
+    if (lower.starts_with(word)) {                      // "Copy of x", "Kopie (2) von x".
+      std::size_t blank = stem.find(' ');
+      if (stem.substr(std::min(blank, stem.size())).starts_with(" (")) {
+        blank = stem.find(' ', blank + 1);
+      }
+      if (blank != std::string_view::npos) blank = stem.find(' ', blank + 1);
+      if (blank != std::string_view::npos) originals.push_back(stem.substr(blank + 1));
+    }
     const std::size_t place = lower.rfind(word);
     if (place == std::string::npos || place == 0) continue;
     if (std::string_view(" -_(").find(stem[place - 1]) != std::string_view::npos) add_before(place);
@@ -200,6 +207,34 @@ bool IsOfSource(const CloudNames& names, std::size_t place, std::size_t running)
          });
 }
 
+/// Whether the values in a place are fractions of the seconds before them, written without a point:
+/// nanoseconds, or all parts into which a steady rate divides a second.
+bool AreFractions(const CloudNames& names, std::size_t place) {
+  constexpr std::size_t kMostRate_hz = 100;  // A thousand are numbers of frames.
+  const std::size_t num_digits = names.front().values[place].written.size();
+  if (num_digits != 1 && num_digits != 3 && num_digits != 6 && num_digits != kNanosecondDigits) {
+    return false;
+  }
+  std::set<std::uint64_t> parts;
+  for (const CloudName& name : names) {
+    const NameValue& value = name.values[place];
+    const bool is_plain = !value.is_time && !value.has_point && !value.has_sign;
+    if (!is_plain || value.written.size() != num_digits || name.texts[place].size() != 1 ||
+        name.IsInWord(place - 1)) {
+      return false;
+    }
+    parts.insert(ParseNumber<std::uint64_t>("0" + value.whole).value());
+  }
+  if (num_digits == kNanosecondDigits) {
+    return *parts.rbegin() - *parts.begin() >= parts.size();  // They do not count.
+  }
+  std::uint64_t step = num_digits == 1 ? 10 : num_digits == 3 ? 1'000 : 1'000'000;
+  if (parts.size() < 2 || parts.size() > kMostRate_hz || step % parts.size() != 0) return false;
+  step /= parts.size();
+  return std::ranges::all_of(
+      parts, [&](std::uint64_t part) { return part % step == *parts.begin() % step; });
+}
+
 /// Splits names that differ in their values alone, and puts each series in order.
 std::vector<NameSeries> SplitNames(CloudNames names, const std::vector<std::size_t>& files) {
   const std::size_t num_values = names.front().values.size();
@@ -212,7 +247,10 @@ std::vector<NameSeries> SplitNames(CloudNames names, const std::vector<std::size
   const auto running = static_cast<std::size_t>(different.rend() - most) - 1;
   std::vector<bool> runs(num_values, false);
   for (std::size_t i = 0; i < num_values; ++i) {
-    runs[i] = i == running || (different[i] > 1 && !IsOfSource(names, i, running));
+    const bool is_beside = i + 1 == running || i == running + 1;
+    runs[i] = i == running ||
+              (different[i] > 1 && ((is_beside && AreFractions(names, std::max(i, running))) ||
+                                    !IsOfSource(names, i, running)));
   }
   // Seconds stand before nanoseconds, also if they are the same in all names.
   const NameValue& last = names.front().values[running];

@@ -211,6 +211,27 @@ bool IsOf(const KnownSensor& sensor, const std::vector<double>& rows_deg) {
   return squares_deg2 <= kSure_deg * kSure_deg * static_cast<double>(rows_deg.size());
 }
 
+/// Compares ranges with that of a sensor with such rings. Other makers' sensors with the same rings
+/// have a range of their own, and some returns there; in another unit, many are.
+void HoldAgainst(double range_max_m, const std::vector<double>& ranges_m, RecordedFrame& recorded) {
+  constexpr double kMostFar = 0.1;
+  const auto num_far =
+      std::ranges::count_if(ranges_m, [&](double range_m) { return range_m > range_max_m; });
+  const double share = static_cast<double>(num_far) / static_cast<double>(ranges_m.size());
+  const std::string limit = ShortText(range_max_m) + " m, the range of a sensor with such rings";
+  const std::string got = ShortText(100.0 * share) + " %";
+  if (share > kMostFar) {
+    throw InputError(recorded.name + ": range_m: at most 10 % of the returns may be beyond " +
+                     limit + " (got " + got + ", the farthest " +
+                     NumberText(std::round(std::ranges::max(ranges_m))) + " m): another unit?");
+  }
+  AddRemark({.kind = RemarkKind::kFarReturns,
+             .place = recorded.name,
+             .number = static_cast<std::uint64_t>(num_far),
+             .detail = got + " beyond " + limit},
+            recorded.remarks);
+}
+
 }  // namespace
 
 std::vector<Remark> CheckPositions(const Cloud& cloud, const std::string& name) {
@@ -377,7 +398,7 @@ void CheckUnit(RecordedFrame& recorded) {
     }
   }
   if (range_max_m > 0.0) {
-    if (const auto far = CheckRanges(recorded, {}, range_max_m)) AddRemark(*far, recorded.remarks);
+    HoldAgainst(range_max_m, ranges_m, recorded);
   } else if (median_m > kMostLikely_m) {
     AddRemark({.kind = RemarkKind::kUnitsAssumed,
                .place = recorded.name,

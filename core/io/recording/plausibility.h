@@ -38,10 +38,11 @@ void LeaveOutUnlikelyTimes(RecordedFrame& recorded);
                                                 const RecordingInfo& info,
                                                 double range_max_m);
 
-/// CheckRanges() of a cloud whose rows are those of a spinning sensor that railcast knows, within
-/// 0.1 deg. Of other clouds a remark (RemarkKind::kUnitsAssumed) if the median of their ranges is
-/// beyond 300 m, where no sensor has half of its returns.
-/// @throws InputError as CheckRanges() does.
+/// Remarks (RemarkKind::kFarReturns) on a cloud whose rows are those of a spinning sensor that
+/// railcast knows, within 0.1 deg, and which has returns beyond its range. Of other clouds a remark
+/// (RemarkKind::kUnitsAssumed) if the median of their ranges is beyond 300 m, where no sensor has
+/// half of its returns.
+/// @throws InputError "NAME: range_m: rule (got value)" if more than 10 % of the returns are.
 void CheckUnit(RecordedFrame& recorded);
 
 /// @throws InputError "NAME: rule: why" unless it is known where the sensor was among the points.

@@ -21,6 +21,13 @@ namespace {
 constexpr std::string_view kManifestHashBegin = "  \"manifest_xxh3\": \"";
 constexpr std::string_view kManifestHashEnd = "\"\n}\n";
 
+/// Where the line with a file's own hash begins; npos if it has none. Those of others are farther
+/// to the right.
+std::size_t FindManifestHash(const std::string& text) {
+  const std::size_t line_end = text.rfind('\n' + std::string(kManifestHashBegin));
+  return line_end == std::string::npos ? line_end : line_end + 1;
+}
+
 bool IsBagOf(const std::string& path, const std::string& format) {
   const FrameFormat* const known = FindFrameFormat(format);
   const std::string name(known == nullptr ? "" : known->bag);
@@ -123,13 +130,13 @@ std::string WithManifestHash(const std::string& json) {
 }
 
 std::string WithoutManifestHash(const std::string& text) {
-  const std::size_t begin = text.rfind(kManifestHashBegin);
+  const std::size_t begin = FindManifestHash(text);
   if (begin == std::string::npos) return text;
   return text.substr(0, text.rfind(',', begin)) + "\n}\n";
 }
 
 void CheckManifestHash(const std::string& text, const std::string& place) {
-  const std::size_t begin = text.rfind(kManifestHashBegin);
+  const std::size_t begin = FindManifestHash(text);
   if (begin == std::string::npos) {
     throw InputError(place + ": must end with manifest_xxh3, the hash of all before it");
   }

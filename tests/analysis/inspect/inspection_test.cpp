@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "analysis/report/formats.h"
+#include "core/base/random.h"
 #include "core/base/units.h"
 #include "tests/analysis/held_recording.h"
 #include "tests/analysis/recorded_frames.h"
@@ -216,6 +217,27 @@ TEST(InspectFrames, LeaveTheSensorToTheOthers) {
   }
 }
 
+// Of the first frames that are searched, all may be odd though most of the recording is not.
+TEST(InspectFrames, ShowTheSensorHoweverManyOfTheFirstAreOdd) {
+  for (const std::size_t num_odd : {19U, 20U, 22U}) {
+    SCOPED_TRACE(num_odd);
+    auto frames = FramesOf("vlp16", 45);
+    for (std::size_t i = 0; i < num_odd; ++i) {
+      std::vector<float>& x_m = frames[i].frame.x;
+      // Half of the points, wherever they are.
+      for (std::uint32_t slot = 0; slot < x_m.size(); ++slot) {
+        if (RandomWords(8, RandomUse::kNoise, 0, slot)[0] % 2 == 0) x_m[slot] = kNaN;
+      }
+    }
+    const RecordingLook look = LookAt(std::move(frames));
+    EXPECT_EQ(std::ranges::count(look.frames, true, &InspectedFrame::has_odd_points),
+              static_cast<std::ptrdiff_t>(num_odd));
+    ASSERT_TRUE(look.sensor.found) << look.sensor.why_not;
+    EXPECT_EQ(look.sensor.found->pattern.channels.size(), 16U);
+    EXPECT_EQ(GuessSensor(look.rings).front().name, "VLP-16");
+  }
+}
+
 TEST(InspectFrames, NamesCopiesDoubledAndMissingPoints) {
   auto frames = FramesOf("vlp16", 6);
   frames[3].frame.x = frames[2].frame.x;
@@ -241,6 +263,34 @@ TEST(InspectFrames, NamesCopiesDoubledAndMissingPoints) {
   const std::string text = LookText(LookAt(frames));
   EXPECT_THAT(text, HasSubstr("3 of 6 frames are unlike the others: they come first."));
   EXPECT_THAT(text, HasSubstr("what is odd of single frames is above."));
+}
+
+TEST(InspectFrames, AllowFewDoubledOrMissingPointsWhereOthersHaveNone) {
+  for (const std::size_t num : {1U, 4U, 5U, 40U}) {
+    for (const std::size_t odd : {0U, 3U, 5U}) {
+      SCOPED_TRACE(num);
+      auto doubled = FramesOf("vlp16", 6);
+      Frame& frame = doubled[odd].frame;
+      const auto first = static_cast<std::size_t>(
+          std::ranges::find_if(frame.x, [](float x) { return !std::isnan(x); }) - frame.x.begin());
+      std::size_t num_copies = 0;
+      for (std::size_t slot = first + 1; num_copies < num; ++slot) {
+        if (std::isnan(frame.x[slot])) continue;
+        for (auto* const of : {&frame.x, &frame.y, &frame.z}) (*of)[slot] = (*of)[first];
+        ++num_copies;
+      }
+      EXPECT_EQ(OddOf(LookAt(std::move(doubled))),
+                num < 5 ? ""
+                        : std::to_string(odd) + ": has " + std::to_string(num) +
+                              " doubled points, where others have 0");
+      auto missing = FramesOf("vlp16", 6);
+      missing[odd].slot_of_entry.assign(num, kNoSlot);
+      EXPECT_EQ(OddOf(LookAt(std::move(missing))),
+                num < 5 ? ""
+                        : std::to_string(odd) + ": has " + std::to_string(num) +
+                              " points without a position, where others have 0");
+    }
+  }
 }
 
 TEST(InspectFrames, NamesGapsOfTime) {

@@ -31,6 +31,30 @@ TEST(RemarkTypes, StandInTheOrderOfTheirKindsWithNamesOfTheirOwn) {
   }
 }
 
+// Not those of further clouds, of which each may have its own.
+TEST(AddRemark, NamesAllFieldsOfACloudThatAreLeftOutUpToALength) {
+  std::vector<Remark> remarks;
+  for (const char* const detail : {"ring", "", "label", "ring", "label"}) {
+    AddRemark({.kind = kFieldsLeftOut, .place = "a.pcd", .detail = detail}, remarks);
+  }
+  for (const char* const place : {"a.pcd: point 3", "a.pcd: point 12"}) {
+    AddRemark({.kind = kFieldsLeftOut, .place = place, .detail = place + 7}, remarks);
+  }
+  AddRemark({.kind = kFieldsLeftOut, .place = "b.pcd", .detail = "time"}, remarks);
+  const Remark expected = {kFieldsLeftOut, "a.pcd", 8, "ring; label; point 3; point 12"};
+  EXPECT_THAT(remarks, testing::ElementsAre(expected));
+  for (int i = 1000; i < 1200; ++i) {
+    AddRemark({.kind = kFieldsLeftOut, .place = "a.pcd", .detail = std::to_string(i)}, remarks);
+  }
+  EXPECT_EQ(remarks[0].number, 208U);
+  EXPECT_LE(remarks[0].detail.size(), 401U);
+  EXPECT_GE(remarks[0].detail.size(), 396U);
+  for (const char* const detail : {"steps", "others"}) {
+    AddRemark({.kind = kFarReturns, .place = "a.pcd", .detail = detail}, remarks);
+  }
+  EXPECT_EQ(remarks[1].detail, "steps");
+}
+
 TEST(RemarkLog, AddsUpAKindAndKeepsTheFirstPlaceWhateverCameFirst) {
   RemarkLog log;
   log.Add({.kind = kFarReturns, .place = "turn 5", .number = 2}, 5);

@@ -183,6 +183,27 @@ TEST(SunDisc, IsSeenAsItIsWhenABeamIsFired) {
   }
 }
 
+// In float32, the product of the unit vectors along a beam and to the sun may be above 1.
+TEST(SunDisc, BlindsNoBeamStraightAtItWhereItIsHidden) {
+  for (int i = 0; i < 24; ++i) {
+    SCOPED_TRACE(i);
+    const auto world = WorldOfParts({Rectangle(kHider_m, -1.0, 1.0, -1.0, 1.0)});
+    world->chunk_from_vehicle.linear() =
+        RotationFromYawPitchRoll(RadFromDeg(15.1 * i), RadFromDeg(1.3 * (i % 7) - 6.0), 0.0);
+    for (Eigen::Vector3f& vertex : world->ground.parts[0].mesh.vertices) {
+      vertex = world->chunk_from_vehicle.linear().cast<float>() * vertex;
+    }
+    const Vector3 ahead = world->chunk_from_vehicle.linear() * Vector3::UnitX();
+    SimulatorSpec spec{.detector = {.effects = {.detection = true, .sunlight = true}}};
+    spec.detector.weather.sun = {.illuminance_klx = 100.0,
+                                 .azimuth_deg = DegFromRad(std::atan2(ahead.y(), ahead.x())),
+                                 .elevation_deg = DegFromRad(std::asin(ahead.z()))};
+    // The nearest beams are 0.007 deg off.
+    const Frame frame = ScanOnce(world, MakeRaster(0.04, 0.04, 0.01), spec);
+    EXPECT_EQ(std::ranges::count(frame.outcome, Outcome::kReturned), 16);
+  }
+}
+
 TEST(SunDisc, IsHiddenBelowTheHorizonAndByNoWire) {
   const auto num_blind = [](const SunScene& scene, double share) {
     return ExpectBlind(scene, ScanSun(scene), [&](double) { return share; });

@@ -362,7 +362,7 @@ void MissingPackets::AddWindow(const Arc& arc, const PacketMark& mark) {
 
 void MissingPackets::Settle() {
   const std::vector<Window> windows = Windows();
-  CountLost(windows, lost_);
+  AddTally(lost_, CountLost(windows));
   std::erase_if(windows_, [](const Window& window) { return window.is_certain; });
   windows_.insert(windows_.end(), windows.begin(), windows.end());
   gaps_.clear();
@@ -374,7 +374,8 @@ bool MissingPackets::IsCovered(const Arc& arc) const {
   return is_covered_[static_cast<std::size_t>(arc.middle() / kBin)];
 }
 
-void MissingPackets::CountLost(const std::vector<Window>& windows, PacketTally& lost) const {
+PacketTally MissingPackets::CountLost(const std::vector<Window>& windows) const {
+  PacketTally lost;
   for (const Gap& gap : gaps_) {
     double packets = gap.packets;
     bool is_window = false;
@@ -385,6 +386,7 @@ void MissingPackets::CountLost(const std::vector<Window>& windows, PacketTally& 
     const std::int64_t num = is_window ? 0 : std::max<std::int64_t>(std::llround(packets), 0);
     lost.Count(gap.number, static_cast<std::size_t>(num));
   }
+  return lost;
 }
 
 std::vector<MissingPackets::Arc> MissingPackets::SilentArcs() const {
@@ -452,7 +454,7 @@ std::optional<MissingPackets::Window> MissingPackets::WindowAt(const Arc& arc) c
 
 PacketTally MissingPackets::lost() const {
   PacketTally lost = lost_;
-  CountLost(Windows(), lost);
+  AddTally(lost, CountLost(Windows()));
   return lost;
 }
 

@@ -100,7 +100,7 @@ class MissingPackets {
   void EndWindows(const PacketMark& mark);
   void AddWindow(const Arc& arc, const PacketMark& mark);
   void Settle();
-  void CountLost(const std::vector<Window>& windows, PacketTally& lost) const;
+  [[nodiscard]] PacketTally CountLost(const std::vector<Window>& windows) const;
   [[nodiscard]] bool IsCovered(const Arc& arc) const;
   [[nodiscard]] std::vector<Arc> SilentArcs() const;
   [[nodiscard]] std::vector<Window> Windows() const;

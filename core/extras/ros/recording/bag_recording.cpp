@@ -209,7 +209,14 @@ RecordedFrame ReadCloudMessage(std::span<const std::byte> data,
       poses.is_fixed() ? "its frame_id " + Quoted(frame_id) +
                              " is that of a fixed frame, and where the sensor was is not known"
                        : "";
-  RecordedFrame recorded = MakeCloudFrame(message.cloud, name, why_no_ranges);
+  // Raw turns are sent as of "map", too, to be shown without transforms. Points that were moved
+  // form no rings of regular azimuths, but keep rows and our columns.
+  const bool may_be_raw = poses.is_fixed_by_name() && message.cloud.height == 1 &&
+                          message.cloud.Find("column") == nullptr;
+  RecordedFrame recorded = MakeCloudFrame(message.cloud, name, may_be_raw ? "" : why_no_ranges);
+  if (may_be_raw && !recorded.is_grid) {
+    recorded = MakeCloudFrame(message.cloud, name, why_no_ranges);
+  }
   FillStamp(message, recorded);
   RemarkOtherRanges(recorded);
   if (PlainFrame(message.header.frame_id) == frame_id) FillPoses(poses, recorded);

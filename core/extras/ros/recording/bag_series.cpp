@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <set>
+#include <map>
+#include <span>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -26,6 +28,8 @@ struct MessageHead {
   std::string frame_id{};
   std::int64_t stamp_ns{};
   bool is_empty{};  ///< Without points.
+
+  [[nodiscard]] bool is_of_any() const { return is_empty && frame_id.empty(); }
 };
 
 /// Reads no more than the head; nothing is known of messages without one.
@@ -61,36 +65,37 @@ struct SeriesPart {
   std::int64_t first_ns = std::numeric_limits<std::int64_t>::max();
   std::int64_t last_ns = std::numeric_limits<std::int64_t>::min();
   std::vector<double> ahead_ns{};  ///< Stamps, of the times at which the bag got them.
+  bool is_alone{};                 ///< Whether no other part has its frame_id.
 };
 
 using SeriesParts = std::vector<SeriesPart>;
 
 SeriesParts PartsInTopic(bag::BagReader& bag, std::size_t topic, const std::string& place) {
-  SeriesParts parts;
+  std::map<std::pair<std::string, std::uint64_t>, SeriesPart> parts;
   std::uint64_t index = 0;
   bag.Select({topic});
   while (const auto message = bag.Next()) {
     const MessageHead head = AtPlace(place + "message " + NumberText(index++) + ": ",
                                      [&] { return HeadOf(*message, bag.topics()[topic]); });
-    if (head.is_empty && head.frame_id.empty()) continue;
-    auto part = std::ranges::find_if(parts, [&](const SeriesPart& of) {
-      return of.frame_id == head.frame_id && of.channel == message->channel;
-    });
-    if (part == parts.end()) {
-      part = parts.insert(parts.end(), SeriesPart{head.frame_id, message->channel});
-    }
-    ++part->num;
-    part->first_ns = std::min(part->first_ns, head.stamp_ns);
-    part->last_ns = std::max(part->last_ns, head.stamp_ns);
-    part->ahead_ns.push_back(static_cast<double>(head.stamp_ns) -
-                             static_cast<double>(message->time_ns));
+    if (head.is_of_any()) continue;
+    SeriesPart& part = parts[{head.frame_id, message->channel}];
+    ++part.num;
+    part.first_ns = std::min(part.first_ns, head.stamp_ns);
+    part.last_ns = std::max(part.last_ns, head.stamp_ns);
+    part.ahead_ns.push_back(static_cast<double>(head.stamp_ns) -
+                            static_cast<double>(message->time_ns));
   }
-  return parts;
+  SeriesParts list;
+  for (auto& [name, part] : parts) {
+    std::tie(part.frame_id, part.channel) = name;
+    list.push_back(std::move(part));
+  }
+  return list;
 }
 
 /// Joins the parts of a frame_id that follow each other, as of a recording in several files.
 SeriesParts Joined(SeriesParts parts) {
-  std::ranges::sort(parts, {}, [](const SeriesPart& part) {
+  std::ranges::stable_sort(parts, {}, [](const SeriesPart& part) {
     return std::pair(std::string_view(part.frame_id), part.first_ns);
   });
   SeriesParts joined;
@@ -105,9 +110,11 @@ SeriesParts Joined(SeriesParts parts) {
     for (; begin != end; ++begin) {
       if (!is_one || joined.empty() || joined.back().frame_id != begin->frame_id) {
         joined.push_back(std::move(*begin));
+        joined.back().is_alone = is_one;
         continue;
       }
       joined.back().num += begin->num;
+      joined.back().last_ns = begin->last_ns;
       joined.back().ahead_ns.insert(joined.back().ahead_ns.end(), begin->ahead_ns.begin(),
                                     begin->ahead_ns.end());
     }
@@ -116,43 +123,55 @@ SeriesParts Joined(SeriesParts parts) {
 }
 
 /// As --frame-id takes it.
-std::string ChoiceOf(const SeriesPart& part, const SeriesParts& all) {
-  const bool is_alone = std::ranges::count(all, part.frame_id, &SeriesPart::frame_id) == 1;
-  return is_alone && !part.frame_id.empty() ? part.frame_id : NameOf(part.frame_id, part.channel);
+std::string ChoiceOf(const SeriesPart& part) {
+  return part.is_alone && !part.frame_id.empty() ? part.frame_id
+                                                 : NameOf(part.frame_id, part.channel);
+}
+
+/// The first of all, with the number of the others.
+template <typename TextOf>
+std::string ListOf(const SeriesParts& all, TextOf text_of) {
+  constexpr std::size_t kMost = 20;
+  std::string list = Join(std::span(all).first(std::min(all.size(), kMost)), ", ", text_of);
+  if (all.size() > kMost) list += " and " + NumberText(all.size() - kMost) + " others";
+  return list;
 }
 
 /// @throws InputError as ReadHeaders().
 SeriesPart Chosen(SeriesParts all, const std::string& place, const std::string& series) {
-  const auto choice_of = [&](const SeriesPart& part) { return ChoiceOf(part, all); };
   if (series.empty()) {
     if (all.size() == 1) return std::move(all.front());
-    const auto text_of = [&](const SeriesPart& part) {
-      return ShownText(choice_of(part)) + " (" + Amount(part.num, "messages") + ")";
+    const auto text_of = [](const SeriesPart& part) {
+      return ShownText(ChoiceOf(part)) + " (" + Amount(part.num, "messages") + ")";
     };
     throw InputError(place + "holds " + NumberText(all.size()) +
-                     " series, by frame_id and channel: " + Join(all, ", ", text_of) +
+                     " series, by frame_id and channel: " + ListOf(all, text_of) +
                      "; --frame-id picks one");
   }
   const auto is_named = [&](const SeriesPart& part) {
-    return series == choice_of(part) || series == NameOf(part.frame_id, part.channel);
+    return series == ChoiceOf(part) || series == NameOf(part.frame_id, part.channel);
   };
   const auto found = std::ranges::find_if(all, is_named);
   if (found != all.end()) return std::move(*found);
-  const std::string names =
-      Join(all, ", ", [&](const SeriesPart& part) { return ShownText(choice_of(part)); });
-  throw InputError(place + "--frame-id: must be one of " + names + " (got " + ShownText(series) +
-                   ")");
+  const auto text_of = [](const SeriesPart& part) { return ShownText(ChoiceOf(part)); };
+  throw InputError(place + "--frame-id: must be one of " + ListOf(all, text_of) + " (got " +
+                   ShownText(series) + ")");
 }
 
 }  // namespace
 
+bool IsOfSeries(const bag::BagReader& bag,
+                const bag::BagMessage& message,
+                const std::string& series) {
+  if (series.empty()) return true;
+  const MessageHead head = HeadOf(message, bag.topics()[message.topic]);
+  return head.is_of_any() || series == head.frame_id ||
+         series == NameOf(head.frame_id, message.channel);
+}
+
 std::optional<bag::BagMessage> NextOfSeries(bag::BagReader& bag, const std::string& series) {
   while (auto message = bag.Next()) {
-    if (series.empty()) return message;
-    const MessageHead head = HeadOf(*message, bag.topics()[message->topic]);
-    if (series == head.frame_id || series == NameOf(head.frame_id, message->channel)) {
-      return message;
-    }
+    if (IsOfSeries(bag, *message, series)) return message;
   }
   return std::nullopt;
 }
@@ -166,6 +185,8 @@ CloudHeaders ReadHeaders(bag::BagReader& bag,
   if (parts.empty()) return headers;
   SeriesPart chosen = Chosen(std::move(parts), place + ShownText(headers.topic) + ": ", series);
   headers.frame_id = std::move(chosen.frame_id);
+  headers.first_ns = chosen.first_ns;
+  headers.last_ns = chosen.last_ns;
   headers.ahead_ns = AheadOf(std::move(chosen.ahead_ns));
   return headers;
 }
@@ -185,6 +206,9 @@ void OverlapCheck::Take(const RecordedFrame& recorded) {
   for (const auto each : {before, span, after}) {
     if (each != spans_.end() && each->second.num_compared == kNeighbours) spans_.erase(each);
   }
+  // Where only every tenth frame is read, no neighbour comes.
+  constexpr std::size_t kMostWaiting = 4096;
+  if (spans_.size() > kMostWaiting) spans_.erase(spans_.begin());
 }
 
 void OverlapCheck::Compare(Spans::iterator before, Spans::iterator after) {

@@ -17,9 +17,15 @@ namespace railcast {
 // A topic may carry the clouds or packets of several sensors, each with a frame_id or a channel of
 // its own: its series.
 
-/// Returns the next message of a series; nothing at the end.
+/// Whether the last message that a bag returned is of a series, or of any, as ReadHeaders() says.
 /// @param series A frame_id, or "frame_id#channel"; empty: any.
 /// @throws InputError "rule" if the message is damaged.
+[[nodiscard]] bool IsOfSeries(const bag::BagReader& bag,
+                              const bag::BagMessage& message,
+                              const std::string& series);
+
+/// Returns the next message of a series, as IsOfSeries(); nothing at the end.
+/// @throws InputError likewise.
 [[nodiscard]] std::optional<bag::BagMessage> NextOfSeries(bag::BagReader& bag,
                                                           const std::string& series);
 

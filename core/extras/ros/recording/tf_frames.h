@@ -70,6 +70,8 @@ class TfTree {
   /// @throws InputError if there are more frames than memory is meant for.
   void Add(const ros::TransformStamped& transform, const bag::BagTopic& topic);
 
+  /// Whether there are no transforms.
+  [[nodiscard]] bool is_empty() const { return frames_.empty(); }
   /// Whether a frame is fixed: it is called so (REP 105: map, odom, earth; world, ...), or
   /// something travels below it and it does not itself.
   [[nodiscard]] bool IsFixed(const std::string& frame) const;

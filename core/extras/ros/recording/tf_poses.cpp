@@ -73,6 +73,7 @@ TfPoses::TfPoses(bag::BagReader& bag, const CloudHeaders& clouds) {
   const TfTree tree = ReadTree(bag, topics.chosen, remarks_);
   const std::string frame = PlainFrame(clouds.frame_id);
   is_fixed_ = tree.IsFixed(frame);
+  is_fixed_by_name_ = is_fixed_ && tree.is_empty() && topics.others.empty();
   if (is_fixed_) return;
   for (TfStep& step : tree.WayToFixed(frame)) links_.push_back({.step = std::move(step)});
   if (links_.empty()) {
@@ -80,7 +81,7 @@ TfPoses::TfPoses(bag::BagReader& bag, const CloudHeaders& clouds) {
     return;
   }
   ReadPoses(bag, topics.chosen);
-  if (clouds.ahead_ns) CompareClocks(*clouds.ahead_ns);
+  CompareClocks(clouds);
 }
 
 void TfPoses::ReadPoses(bag::BagReader& bag, const std::vector<std::size_t>& topics) {
@@ -177,14 +178,22 @@ std::vector<bool> TfPoses::JumpsOf(const std::vector<TimedPose>& poses) {
   return is_jump;
 }
 
-void TfPoses::CompareClocks(double clouds_ahead_ns) {
+void TfPoses::CompareClocks(const CloudHeaders& clouds) {
   // Localisation may state times up to a second ahead, for its poses to be there when asked for.
   constexpr double kOtherClock_s = 1.25;
   for (TfLink& link : links_) {
     const auto ahead_ns = AheadOf(std::exchange(link.ahead_ns, {}));
-    if (!ahead_ns) continue;
-    const double measured_s = (clouds_ahead_ns - *ahead_ns) / static_cast<double>(kNsPerS);
+    if (!ahead_ns || !clouds.ahead_ns) continue;
+    const double measured_s = (*clouds.ahead_ns - *ahead_ns) / static_cast<double>(kNsPerS);
     if (std::abs(measured_s) <= kOtherClock_s) continue;
+    // Where stamps of one time are farther apart than both last together, none are equal. If some
+    // are, the transforms were recorded at another time, as those of a replay.
+    const std::int64_t first_ns = link.poses.front().time_ns;
+    const std::int64_t last_ns = link.poses.back().time_ns;
+    const bool do_meet = clouds.first_ns <= last_ns && first_ns <= clouds.last_ns;
+    const double both_s =
+        SecondsFromNs(clouds.last_ns - clouds.first_ns) + SecondsFromNs(last_ns - first_ns);
+    if (do_meet && std::abs(measured_s) > both_s) continue;
     const auto exact = ExactDifference(measured_s);
     const double by_s = exact ? exact->seconds : measured_s;
     other_clock_ = (exact ? NumberText(std::abs(by_s)) : ShortText(std::abs(by_s))) +

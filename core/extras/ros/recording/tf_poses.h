@@ -19,6 +19,7 @@ struct CloudHeaders {
   std::string frame_id;
   /// How far the stamps are ahead of the times at which the bag got the messages, as AheadOf().
   std::optional<double> ahead_ns{};
+  std::int64_t first_ns{}, last_ns{};  ///< The least and the greatest stamp.
 };
 
 /// How far stamps are ahead of the times at which a bag got their messages: the median of the
@@ -61,6 +62,8 @@ class TfPoses {
   [[nodiscard]] bool is_clock_known() const { return is_clock_known_; }
   /// Whether the clouds are in a fixed frame already, so that it is not known where the sensor was.
   [[nodiscard]] bool is_fixed() const { return is_fixed_; }
+  /// Whether only the name of that frame says so, for the bag has no transforms.
+  [[nodiscard]] bool is_fixed_by_name() const { return is_fixed_by_name_; }
   /// On the transforms as a whole: those left out, and why there are no poses.
   [[nodiscard]] const std::vector<Remark>& remarks() const { return remarks_; }
 
@@ -87,7 +90,7 @@ class TfPoses {
   void ReadPoses(bag::BagReader& bag, const std::vector<std::size_t>& topics);
   static void Finish(TfLink& link);
   [[nodiscard]] static std::vector<bool> JumpsOf(const std::vector<TimedPose>& poses);
-  void CompareClocks(double clouds_ahead_ns);
+  void CompareClocks(const CloudHeaders& clouds);
   [[nodiscard]] static PoseRange RangeOf(const TfLink& link,
                                          std::int64_t begin_ns,
                                          std::int64_t end_ns);
@@ -98,6 +101,7 @@ class TfPoses {
   std::string other_clock_;
   bool is_clock_known_ = true;
   bool is_fixed_ = false;
+  bool is_fixed_by_name_ = false;
   std::vector<Remark> remarks_;
 };
 

@@ -166,20 +166,33 @@ struct TopicCopy {
   std::string series;
   std::unique_ptr<bag::BagCopy> copy;
 
+  /// Those of other series stay as they are: the copy waits for every message of the topic.
   [[nodiscard]] std::optional<bag::BagMessage> Next() const {
-    return NextOfSeries(*messages, series);
+    while (auto message = messages->Next()) {
+      if (IsOfSeries(*messages, *message, series)) return message;
+      copy->Put(message->place, std::nullopt);
+    }
+    return std::nullopt;
   }
 };
 
-TopicCopy CopyTopic(const BagSource& source, const std::filesystem::path& folder) {
-  auto messages = bag::OpenBag(source.bag);
-  const std::size_t picked = PickTopic(messages->topics(), source.bag, source.topic);
-  const bag::BagTopic topic = messages->topics()[picked];
-  if (topic.type != ros::PointCloud2::kName && FindPacketsOf(topic.type) == nullptr) {
+/// Returns the index of the topic.
+/// @throws InputError as CheckCanEdit().
+std::size_t EditableTopic(const BagSource& source, const bag::BagReader& messages) {
+  const std::size_t picked = PickTopic(messages.topics(), source.bag, source.topic);
+  const std::string& type = messages.topics()[picked].type;
+  if (type != ros::PointCloud2::kName && FindPacketsOf(type) == nullptr) {
     throw InputError(ShownPath(source.bag) + ": must have clouds of type " +
                      std::string(ros::PointCloud2::kName) +
-                     " or packets to be inserted into (got " + ShownText(topic.type) + ")");
+                     " or packets to be inserted into (got " + ShownText(type) + ")");
   }
+  return picked;
+}
+
+TopicCopy CopyTopic(const BagSource& source, const std::filesystem::path& folder) {
+  auto messages = bag::OpenBag(source.bag);
+  const std::size_t picked = EditableTopic(source, *messages);
+  const bag::BagTopic topic = messages->topics()[picked];
   messages->Select({picked});
   // A directory may be named with a slash at its end.
   const auto path = source.bag.has_filename() ? source.bag : source.bag.parent_path();
@@ -256,6 +269,10 @@ class BagCloudOutput : public InsertedOutput {
 };
 
 }  // namespace
+
+void CheckCanEdit(const BagSource& source) {
+  static_cast<void>(EditableTopic(source, *bag::OpenBag(source.bag)));
+}
 
 std::unique_ptr<InsertedOutput> MakeBagOutput(const BagSource& source,
                                               const std::filesystem::path& folder) {

@@ -33,6 +33,9 @@ class InsertedOutput {
 [[nodiscard]] std::unique_ptr<InsertedOutput> MakeBagOutput(const BagSource& source,
                                                             const std::filesystem::path& folder);
 
+/// @throws InputError if the bag's topic has neither packets nor clouds that MakeBagOutput() edits.
+void CheckCanEdit(const BagSource& source);
+
 /// The checksum of a UDP datagram after bytes of it have changed (RFC 1624): right if it was right
 /// before, and 0, which stands for none, if it was 0.
 /// @param place Of the first byte, counted from UDP's header.

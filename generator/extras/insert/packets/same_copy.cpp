@@ -94,8 +94,12 @@ std::unique_ptr<RecordingOutput> MakeSameCopy(const RecordingInfo& info,
                                               const std::filesystem::path& folder) {
   // A folder of clouds or a sequence may hold a bag, too.
   if (!info.kind.starts_with("capture of ") && info.kind != "bag of ROS 2") return nullptr;
-  // Something put into one is named by its folder.
-  if (!FindCapture(info.source) && !FindBag(info.source)) return nullptr;
+  if (!FindCapture(info.source)) {
+    const auto bag = FindBag(info.source);
+    // Something put into one is named by its folder.
+    if (!bag) return nullptr;
+    CheckCanEdit(*bag);
+  }
   return std::make_unique<SameCopy>(info.source, folder);
 }
 

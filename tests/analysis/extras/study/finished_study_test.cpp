@@ -202,6 +202,24 @@ TEST_F(VerifiedStudies, HaveTheFilesThatTheirManifestNames) {
                                    "(got 1)"));
 }
 
+// Of rare failures, a recipe does not say how many approaches there are.
+TEST_F(VerifiedStudies, AreReadWithoutProgressBeyondTheirEnd) {
+  Make();
+  const auto file = folder() / "study.json";
+  nlohmann::json identity = nlohmann::json::parse(ReadFileWhole(file));
+  for (const bool is_rare : {false, true}) {
+    for (const int num_scenarios : {1, 2, 6, 12}) {
+      if (is_rare) identity["rare"] = "per_stage 300";
+      identity["num_scenarios"] = num_scenarios;
+      WriteFileWhole(file, identity.dump());
+      std::vector<double> shares;
+      (void)VerifyStudy(folder(), [&](double share) { shares.push_back(share); });
+      EXPECT_EQ(shares.size(), is_rare ? 0U : 6U);
+      EXPECT_THAT(shares, testing::Each(testing::AllOf(testing::Ge(0.0), testing::Le(1.0))));
+    }
+  }
+}
+
 TEST_F(VerifiedStudies, MayBeShards) {
   MakeKeptStudy(folder(), {.number = 2, .of = 3});
   // They keep no files.

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/base/input_file.h"
+#include "tests/analysis/analyze_program.h"
 #include "tests/analysis/extras/study/study_project.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
@@ -107,6 +108,20 @@ TEST_F(RareStudyTest, RefusesMoreUnseenApproachesThanThereMayBe) {
   std::ofstream(file) << study;
   EXPECT_EQ(MessageOf([&] { (void)ReadStudy(file); }),
             file.string() + ": /rare/unseen: must be at least 12 / most_approaches (got 0.001)");
+}
+
+TEST_F(RareStudyTest, RefusesOnTheCommandLineWhatIsNoShareOfItsRange) {
+  const auto file = Write();
+  nlohmann::json study = nlohmann::json::parse(ReadFileWhole(file));
+  study["rare"] = {{"most_approaches", 4000}};
+  std::ofstream(file) << study;
+  for (const std::string unseen : {"nan", "inf", "0", "-0.01", "0.002", "0.2"}) {
+    const Ended run = Analyze("study " + file.string() + " --out " + Path("out").string() +
+                              " --unseen=" + unseen);
+    EXPECT_NE(run.status, 0);
+    EXPECT_EQ(run.said, "--unseen: must be from 0.003 to 0.1 (got " + unseen + ")\n");
+    EXPECT_FALSE(exists(Path("out")));
+  }
 }
 
 TEST_F(RareStudyTest, RefusesRecipesOfSeveralRungs) {

@@ -319,6 +319,29 @@ TEST(KittiReader, TurnsThePointsOfNuScenes) {
   EXPECT_EQ(Rewritten(file, {file.cloud.data, std::vector<std::uint32_t>(640)}).at(0), bytes);
 }
 
+// In the order of rings; numbers of points that make every step of what is looked at, over a period
+// of the columns.
+TEST(KittiReader, TakesNoPointsOfManyForRows) {
+  for (const std::size_t num_columns : {4UL, 5UL, 6UL}) {
+    const std::string room = BinRoom<float>(num_columns, num_columns == 5);
+    const std::size_t point_bytes = 4 * num_columns;
+    constexpr std::size_t kMost = 15'000 * 13;
+    std::string bytes;
+    while (bytes.size() < kMost * point_bytes) bytes += room;
+    for (std::size_t step = 2; step <= 12; ++step) {
+      for (std::size_t i = 0; i < num_columns; ++i) {
+        const std::size_t num = 15'000 * (step - 1) + 1 + i;
+        EXPECT_EQ(MessageOf([&] {
+                    (void)ParseKittiColumns("a.bin", bytes.substr(0, num * point_bytes), {},
+                                            NumberText(num_columns));
+                  }),
+                  "no error")
+            << num << " points of " << num_columns;
+      }
+    }
+  }
+}
+
 TEST(KittiReader, NamesRowsThatStandOneAfterTheOther) {
   for (const std::size_t num_rows : {4UL, 5UL, 6UL}) {
     const std::string bytes = BinRoom<float>(num_rows);

@@ -200,6 +200,28 @@ TEST(ParsePcdFile, LeavesOutAFieldOfWhichAWordIsNoValue) {
                                                  "label: no value of its type (got -1)"}}));
 }
 
+// Whatever word stood before it: one that would be rounded, too.
+TEST(ParsePcdFile, LeavesOutAFieldOfFloatsOfWhichAWordIsNoNumber) {
+  for (const std::string type : {"4 F", "8 F", "4 I", "1 U"}) {
+    for (const std::string z : {"3", "nan", "691234.5"}) {
+      for (const std::string word : {"abc", "--1", "1.2.3"}) {
+        const Cloud cloud =
+            ParsePcdFile("a.pcd", "FIELDS x y z intensity ring\nSIZE 4 4 4 " + type.substr(0, 1) +
+                                      " 4\nTYPE F F F " + type.substr(2) +
+                                      " U\nWIDTH 2\nHEIGHT 1\nDATA ascii\n1 2 3 4 5\n1 2 " + z +
+                                      " " + word + " 6\n")
+                .cloud;
+        EXPECT_EQ(cloud.Find("intensity"), nullptr);
+        ASSERT_NE(cloud.Find("ring"), nullptr);
+        EXPECT_EQ(cloud.fields[3].num_bytes(), type[0] - '0') << type << z << word;
+        EXPECT_EQ(cloud.remarks,
+                  (std::vector<Remark>{{RemarkKind::kFieldsLeftOut, "a.pcd", 1,
+                                        "intensity: no value of its type (got " + word + ")"}}));
+      }
+    }
+  }
+}
+
 TEST(ParsePcdFile, ReadsNumbersAsOtherProgramsWriteThem) {
   const std::string ascii = Example(PcdEncoding::kAscii);
   for (const char* const words : {"1.#QNAN -1.#IND nanq 0.000000", "1.#INF00 -nan(ind) NaN 0e0",

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -78,6 +80,16 @@ TEST(CloudNames, OfCopiesAndStrangersAreLeftOut) {
                                             "000001 - \u526f\u672c.pcd", "000001_copy2.pcd",
                                             "Kopie von 000000.pcd"));
   EXPECT_THAT(LeftOutOf({"a_1.ply", "a_2.ply", "a_3.ply", "map.ply"}), ElementsAre("map.ply"));
+  EXPECT_THAT(LeftOutOf({"a b 1.ply", "a b 2.ply", "Copy of a b 1.ply", "Copie de a b 2.ply",
+                         "Kopie (2) von a b 2.ply"}),
+              testing::UnorderedElementsAre("Copy of a b 1.ply", "Copie de a b 2.ply",
+                                            "Kopie (2) von a b 2.ply"));
+  // Names may begin as the word does.
+  for (const std::string begin : {"Kopenhagen_", "copter", "Copy ", "cop-", "kopter 2 "}) {
+    EXPECT_THAT(LeftOutOf({begin + "0001.pcd", begin + "0002.pcd", begin + "0003.pcd"}),
+                ElementsAre())
+        << begin;
+  }
   // A file manager numbers them so.
   EXPECT_THAT(LeftOutOf({"scan (1).ply", "scan (2).ply", "scan (10).ply"}), ElementsAre());
   EXPECT_THAT(LeftOutOf({"street.ply", "yard.ply", "bridge 2.ply"}), ElementsAre());
@@ -98,6 +110,62 @@ TEST(CloudNames, OfSeveralSensorsAreRefused) {
   // Seconds and tenths, and one drive after the other.
   EXPECT_EQ(fault({"d/17_8.pcd", "d/17_9.pcd", "d/18_0.pcd", "d/18_1.pcd"}), "no error");
   EXPECT_EQ(fault({"d/a_1.pcd", "d/a_2.pcd", "d/b_3.pcd", "d/b_4.pcd"}), "no error");
+}
+
+/// Names of so many seconds and fractions of them, such as "17_0.pcd", in the order of time.
+std::vector<std::filesystem::path> TimedNames(const std::string& begin,
+                                              std::size_t num_seconds,
+                                              std::size_t rate_hz,
+                                              std::size_t num_digits) {
+  std::uint64_t second = 1;
+  for (std::size_t i = 0; i < num_digits; ++i) second *= 10;
+  std::vector<std::filesystem::path> names;
+  for (std::size_t i = 0; i < num_seconds * rate_hz; ++i) {
+    const std::string digits = std::to_string(second + i % rate_hz * (second / rate_hz));
+    names.emplace_back(begin + std::to_string(10 + i / rate_hz) + "_" + digits.substr(1) + ".pcd");
+  }
+  return names;
+}
+
+// Fewer seconds than fractions, as many, or more; and times whose seconds are their last numbers.
+TEST(CloudNames, OfSecondsAndFractionsAreOneSeries) {
+  for (const std::size_t rate_hz : {2U, 5U, 10U, 20U}) {
+    for (const std::size_t num_digits : {1U, 3U, 6U, 9U}) {
+      if (num_digits == 1 && rate_hz > 10) continue;
+      for (const std::size_t num_seconds : {rate_hz - 1, rate_hz, rate_hz + 1, 3 * rate_hz}) {
+        for (const char* const begin : {"", "scan_", "scan_17000000", "20261130_1000"}) {
+          const std::vector<std::filesystem::path> names =
+              TimedNames(begin, std::min<std::size_t>(num_seconds, 49), rate_hz, num_digits);
+          EXPECT_EQ(SeriesOfClouds({names.rbegin(), names.rend()}, "").files, names)
+              << begin << num_seconds << " s at " << rate_hz;
+        }
+      }
+    }
+  }
+}
+
+TEST(CloudNames, OfNumberedSourcesAreNoFractions) {
+  const auto fault = [](const std::vector<std::string>& names) {
+    return MessageOf([&] { (void)LeftOutOf(names); });
+  };
+  for (const std::size_t num_frames : {2U, 3U, 10U, 500U, 1000U}) {
+    for (const std::size_t num_digits : {3U, 4U, 6U, 9U}) {
+      std::vector<std::string> names;
+      for (std::size_t i = 0; i < 2 * num_frames; ++i) {
+        const std::string index = std::to_string(i / 2);
+        names.push_back("d/0" + std::to_string(1 + i % 2) + "_" +
+                        std::string(num_digits - index.size(), '0') + index + ".bin");
+      }
+      const std::string of = "# of " + std::to_string(num_frames) + " files";
+      EXPECT_THAT(fault(names), testing::HasSubstr("(got 01_" + of + ", 02_" + of + ")"));
+    }
+  }
+  // Of sensors 1 and 2 of any name ten frames each.
+  std::vector<std::string> names;
+  for (int i = 0; i < 20; ++i) {
+    names.push_back("d/lidar" + std::to_string(1 + i / 10) + "_" + std::to_string(i % 10) + ".bin");
+  }
+  EXPECT_THAT(fault(names), testing::HasSubstr("(got lidar1_# of 10 files, lidar2_# of 10 files)"));
 }
 
 TEST(CloudNames, OfOneSeriesMayBeChosen) {

@@ -3,10 +3,13 @@
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>
 
+#include <array>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "core/base/units.h"
 #include "railcast/io/cloud_files.h"
 #include "railcast/io/recording.h"
 #include "tests/core/io/example_frame.h"
@@ -123,6 +126,57 @@ TEST(ForeignFields, ThatAreLeftOutAreTold) {
                                  .place = file.path().string(),
                                  .number = 2,
                                  .detail = "rgb, normal but for its first number"}));
+}
+
+/// Lines of a turn of 16 rings in a room, with the ring behind each point, and another one for the
+/// last.
+std::vector<std::string> RingLines(const std::string& last) {
+  std::vector<std::string> lines;
+  for (int i = 0; i < 180 * 16; ++i) {
+    const double azimuth_rad = RadFromDeg(2.0 * (i / 16) + 0.3);
+    const double elevation_rad = RadFromDeg(2.0 * (i % 16) - 15.0);
+    lines.push_back(std::to_string(9.0 * std::cos(azimuth_rad)) + " " +
+                    std::to_string(9.0 * std::sin(azimuth_rad)) + " " +
+                    std::to_string(9.0 * std::tan(elevation_rad)) + " " + std::to_string(i % 16));
+  }
+  lines.back().resize(lines.back().rfind(' ') + 1);
+  lines.back() += last;
+  return lines;
+}
+
+TEST(ForeignFields, AreToldOfRingsThatElevationsReplace) {
+  for (const auto& [type, last, got] : std::vector<std::array<std::string, 3>>{
+           {"int ring", "15", ""},
+           {"int ring", "-1", "ring: must be a whole number from 0 to 65535 (got -1)"},
+           {"int laser", "70000", "laser: must be a whole number from 0 to 65535 (got 70000)"},
+           {"float ring", "1.5", "ring: must be a whole number from 0 to 65535 (got 1.5)"},
+           {"float ring", "nan", "ring: must be a whole number from 0 to 65535 (got nan)"}}) {
+    for (const bool is_turn : {true, false}) {
+      std::vector<std::string> lines = RingLines(last);
+      if (!is_turn) lines.erase(lines.begin(), lines.end() - 3);
+      const RecordedFrame recorded = ReadPly({type}, lines);
+      EXPECT_EQ(recorded.is_grid, is_turn) << type << last;
+      ASSERT_EQ(recorded.remarks.size(), got.empty() ? 0U : 1U) << type << last;
+      if (got.empty()) continue;
+      EXPECT_EQ(recorded.remarks[0].kind, RemarkKind::kFieldsLeftOut);
+      EXPECT_EQ(recorded.remarks[0].number, 1U);
+      EXPECT_EQ(recorded.remarks[0].detail, got);
+    }
+  }
+}
+
+TEST(ForeignFields, ThatAreLeftOutAreAllNamed) {
+  const RecordedFrame recorded = ReadPly({"int ring", "int label", "float rgb", "uchar intensity"},
+                                         {"1 2 3 -1 5 6 7", "1 3 3 0 -2 6 700"});
+  EXPECT_THAT(
+      recorded.remarks,
+      ElementsAre(testing::AllOf(
+          testing::Field(&Remark::kind, RemarkKind::kFieldsLeftOut),
+          testing::Field(&Remark::number, 4U),
+          testing::Field(&Remark::detail, testing::AllOf(testing::HasSubstr("ring: must be"),
+                                                         testing::HasSubstr("; label: must be"),
+                                                         testing::HasSubstr("intensity: no value"),
+                                                         testing::EndsWith("; rgb"))))));
 }
 
 TEST(ForeignFields, HoldASecondColumnOfOneMeaning) {

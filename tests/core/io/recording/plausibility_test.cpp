@@ -185,11 +185,38 @@ Cloud VlpRoom(double metre, double step_deg = 2.0) {
 TEST(CheckUnit, HoldsRangesAgainstThoseOfTheSensorThatRingsShow) {
   EXPECT_TRUE(MakeCloudFrame(VlpRoom(1.0), "a.pcd").remarks.empty());
   for (const double unit : {15.0, 39.4, 100.0, 1000.0}) {
-    EXPECT_THAT(MessageOf([&] { (void)MakeCloudFrame(VlpRoom(unit), "a.pcd"); }),
-                testing::AllOf(testing::StartsWith("a.pcd: range_m: at most 1 % of the returns may "
-                                                   "be beyond the sensor's range_max_m of 120 (got "
-                                                   "100 %, the farthest "),
-                               testing::EndsWith(" m): another unit?")));
+    EXPECT_THAT(
+        MessageOf([&] { (void)MakeCloudFrame(VlpRoom(unit), "a.pcd"); }),
+        testing::AllOf(testing::StartsWith("a.pcd: range_m: at most 10 % of the returns may "
+                                           "be beyond 120 m, the range of a sensor with "
+                                           "such rings (got 100 %, the farthest "),
+                       testing::EndsWith(" m): another unit?")));
+  }
+}
+
+// Of RS-LiDAR-16, Helios-16P or C16, whose rings are those of a VLP-16, in open country.
+TEST(CheckUnit, TellsReturnsOfASensorThatSeesFartherThanOneWithItsRings) {
+  for (const float longer : {1.4F, 1.6F, 2.1F}) {
+    for (const std::uint32_t num_far : {1U, 5U, 18U, 19U}) {  // Of 180 columns.
+      Cloud cloud = VlpRoom(10.0);
+      for (std::uint32_t i = 0; i < 3 * 16 * num_far; ++i) {
+        float value{};
+        std::memcpy(&value, cloud.data.data() + 4 * std::size_t{i}, sizeof value);
+        value *= longer;
+        std::memcpy(cloud.data.data() + 4 * std::size_t{i}, &value, sizeof value);
+      }
+      if (num_far == 19) {
+        EXPECT_THAT(MessageOf([&] { (void)MakeCloudFrame(cloud, "a.pcd"); }),
+                    testing::HasSubstr("with such rings (got 10.56 %, the farthest "));
+        continue;
+      }
+      const auto remarks = MakeCloudFrame(cloud, "a.pcd").remarks;
+      ASSERT_EQ(remarks.size(), 1U) << longer << ", " << num_far;
+      EXPECT_EQ(remarks[0].kind, RemarkKind::kFarReturns);
+      EXPECT_EQ(remarks[0].number, 16U * num_far);
+      EXPECT_THAT(remarks[0].detail,
+                  testing::EndsWith(" % beyond 120 m, the range of a sensor with such rings"));
+    }
   }
 }
 

@@ -113,6 +113,24 @@ TEST_F(RunOfTwoSensors, IsChangedWithAnyValueOfItsList) {
   EXPECT_THAT(Faults(), IsEmpty());
 }
 
+// Those of its sensors are named alike, and stand before it.
+TEST_F(RunOfTwoSensors, IsChangedWithoutTheHashOfItsList) {
+  const std::string text = ReadFileWhole(sensors());
+  for (const bool is_merged : {true, false}) {
+    for (const std::size_t num_sensors : {2U, 1U}) {
+      Edit([&](SensorsJson& json) {
+        json.erase("manifest_xxh3");
+        if (!is_merged) json.erase("merged");
+        if (num_sensors < 2) json["sensors"].erase(num_sensors);
+      });
+      EXPECT_THAT(Faults(),
+                  testing::Contains(
+                      "sensors.json: must end with manifest_xxh3, the hash of all before it"));
+      WriteFileWhole(sensors(), text);
+    }
+  }
+}
+
 TEST_F(RunOfTwoSensors, IsMendedWhereItsListWasChanged) {
   const auto whole = Contents(run());
   Edit(kEdits.front());

@@ -233,6 +233,32 @@ std::pair<std::size_t, std::size_t> MissingAndLost(const std::string& format,
   return {kept.back() - kept.front() + 1 - kept.size(), order.lost().number};
 }
 
+// Of wide gaps it is only known later how many are missing.
+TEST(PacketOrder, TellsTheFirstLossWhateverItsWidth) {
+  for (const auto& [format, sensor] :
+       {std::pair("vlp16", "vlp16"), {"vlp16", "vlp16_20hz"}, {"hdl32e", "hdl32e"}}) {
+    const auto packets = Turns(12, format, sensor);
+    const SpinningDecoder decoder(*FindSpinningModel(format));
+    for (const auto& [first, second] :
+         {std::pair<std::size_t, std::size_t>{40, 1}, {1, 40}, {40, 40}, {1, 1}, {0, 40}}) {
+      PacketOrder order;
+      for (std::size_t i = 0; i < packets.size(); ++i) {
+        const bool is_lost = (i >= 100 && i < 100 + first) || (i >= 300 && i < 300 + second);
+        if (is_lost) continue;
+        order.Add({.bytes = {packets[i].begin(), packets[i].end()},
+                   .places = {},
+                   .number = i,
+                   .captured_ns = static_cast<std::int64_t>(i) * 1'000'000},
+                  decoder.MarkOf(packets[i]));
+        while (order.Next()) continue;
+      }
+      order.End();
+      EXPECT_EQ(order.lost().number, first + second) << sensor;
+      EXPECT_EQ(order.lost().first, first > 0 ? 100 + first : 300 + second) << sensor;
+    }
+  }
+}
+
 TEST(PacketOrder, CountsLossesThatAreRegularAndThoseThatAreNot) {
   for (const auto& [format, sensor] : {std::pair("vlp16", "vlp16"),
                                        {"vlp16", "vlp16_20hz"},

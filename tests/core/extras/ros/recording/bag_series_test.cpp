@@ -68,6 +68,57 @@ TEST(BagSeries, AreListedAndChosenByFrameId) {
   }
 }
 
+// Messages name as many as one can read; the time grows with their number, not with its square.
+TEST(BagSeries, AreListedUpToTwenty) {
+  for (const int num_series : {20, 21, 3000}) {
+    MadeBag bag;
+    for (int i = 0; i < num_series; ++i) {
+      bag.Add("/points", i, TimedCloud("lidar_" + std::to_string(10'000 + i), 0, 0.1F));
+    }
+    const auto file = bag.Closed();
+    std::string names;
+    std::string numbers;
+    for (int i = 0; i < 20; ++i) {
+      const std::string name = "lidar_" + std::to_string(10'000 + i);
+      names += (i == 0 ? "" : ", ") + name;
+      numbers += (i == 0 ? "" : ", ") + name + " (1 message)";
+    }
+    const std::string others =
+        num_series == 20 ? "" : " and " + std::to_string(num_series - 20) + " others";
+    EXPECT_EQ(FaultOfOpening(file), file.string() + ": /points: holds " +
+                                        std::to_string(num_series) +
+                                        " series, by frame_id and channel: " + numbers + others +
+                                        "; --frame-id picks one");
+    EXPECT_EQ(FaultOfOpening(file.string() + ":/#side"),
+              file.string() + ":/#side: /points: --frame-id: must be one of " + names + others +
+                  " (got side)");
+    EXPECT_EQ(ReadAll(file.string() + ":/#lidar_" + std::to_string(9999 + num_series)).size(), 1U);
+  }
+}
+
+// A sensor that starts sends messages without points, and some drivers these without a name.
+TEST(BagSeries, TakeMessagesWithoutPointsAndName) {
+  for (const BagKind kind : {BagKind::kMcap, BagKind::kRosbag2}) {
+    for (const std::string series : {"front", "rear"}) {
+      MadeBag bag(kind);
+      for (const auto& [frame_id, num_points] : std::vector<std::pair<std::string, std::size_t>>{
+               {"", 0}, {"front", 2}, {"rear", 2}, {"rear", 0}, {"", 0}, {"front", 2}}) {
+        ros::PointCloud2 cloud = CloudOf({kBagPoints.begin(), kBagPoints.begin() + num_points}, 0);
+        cloud.header.frame_id = frame_id;
+        bag.Add("/points", 0, cloud);
+      }
+      std::vector<std::size_t> num_slots;
+      for (const auto& frame : ReadAll(bag.Closed().string() + ":/#" + series)) {
+        num_slots.push_back(frame.slot_of_entry.size());
+      }
+      const std::vector<std::size_t> expected = series == "front"
+                                                    ? std::vector<std::size_t>{0, 2, 0, 2}
+                                                    : std::vector<std::size_t>{0, 2, 0, 0};
+      EXPECT_EQ(num_slots, expected);
+    }
+  }
+}
+
 TEST(BagSeries, AreThoseOfPacketsToo) {
   MadeBag bag;
   for (const char* const name : {"front", "rear"}) {
@@ -174,6 +225,27 @@ TEST(BagSeries, TellsOfFramesThatOverlapInTime) {
     }
     EXPECT_EQ(remarks, text.empty() ? Texts{} : Texts{text});
   }
+}
+
+// As where only every other frame of a long recording is read, and some of the rest later.
+TEST(BagSeries, CompareFramesInTimeAsLongAsTheyAreKept) {
+  const auto remarks = std::make_shared<RemarkLog>();
+  OverlapCheck check(remarks);
+  const auto take = [&](std::uint32_t index) {
+    RecordedFrame recorded;
+    recorded.name = std::to_string(index);
+    recorded.frame.index = index;
+    recorded.frame.duration_ns = 100;
+    check.Take(recorded);
+  };
+  constexpr std::uint32_t kEnd = 20'000;
+  for (std::uint32_t index = 0; index < kEnd; index += 2) take(index);
+  take(1);  // Its neighbours are forgotten.
+  EXPECT_TRUE(remarks->List().empty());
+  take(kEnd - 3);
+  ASSERT_EQ(remarks->List().size(), 1U);
+  EXPECT_EQ(remarks->List()[0].number, 2U);
+  EXPECT_EQ(remarks->List()[0].place, std::to_string(kEnd - 3));
 }
 
 // The time of opening grows with the number of channels, not with its square.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -181,6 +182,37 @@ TEST(TfPoses, AreThoseOfTheTimesOnTheirClock) {
   }
 }
 
+// Of localisation that was run later on the recorded clouds, or that was recorded before them.
+TEST(TfPoses, AreKnownOfAReplayWithTheStampsOfTheClouds) {
+  struct Replay {
+    double later_s;
+    bool is_known;
+  };
+  const std::int64_t begin_ns = 1'700'000'000 * kSecond_ns;
+  for (const auto& [later_s, is_known] : std::vector<Replay>{
+           {1000.0, true}, {86'400.0, true}, {31.5e6, true}, {-7200.0, true}, {60.0, false}}) {
+    for (const int first : {0, 30}) {  // Of the clouds, in s.
+      MadeBag bag;
+      for (int i = 0; i < 60; ++i) {
+        const std::int64_t stamp_ns = begin_ns + i * kSecond_ns;
+        bag.Add("/tf", stamp_ns + static_cast<std::int64_t>(later_s * double(kSecond_ns)),
+                ros::TfMessage{{{{TimeAt(stamp_ns), "map"}, "lidar", At(10.0 * i)}}});
+      }
+      for (int i = first; i < first + 29; ++i) {
+        const std::int64_t stamp_ns = begin_ns + i * kSecond_ns;
+        bag.Add("/points", stamp_ns, CloudOf(kBagPoints, stamp_ns));
+      }
+      const ReadBag read = Read(bag.Closed());
+      ASSERT_EQ(read.x_m.size(), 29U);
+      EXPECT_EQ(std::isnan(read.x_m[4]), !is_known) << later_s;
+      if (is_known) {
+        EXPECT_NEAR(read.x_m[4], 10.0 * (first + 4), 1e-6);
+      }
+      EXPECT_EQ(read.remarks.empty(), is_known) << later_s;
+    }
+  }
+}
+
 // The times at which messages were got say nothing where they stand still.
 TEST(TfPoses, DoNotTellClocksApartByTimesThatNobodyNoted) {
   EXPECT_EQ(AheadOf({}), std::nullopt);
@@ -276,6 +308,47 @@ TEST(TfPoses, AreNoneOfCloudsInAFixedFrame) {
       EXPECT_EQ(frames.at(0).why_no_ranges.empty(), !is_fixed) << frame_id;
       EXPECT_EQ(RemarkTexts(recording->info().remarks->List()),
                 is_fixed ? Texts{"ranges-unknown 1"} : Texts{});
+    }
+  }
+}
+
+/// A turn of 8 rings, seen from a sensor at some place.
+ros::PointCloud2 TurnFrom(double x_m, const std::string& frame_id) {
+  constexpr int kColumns = 360;
+  std::vector<std::array<float, 3>> points;
+  for (int column = 0; column < kColumns; ++column) {
+    const double azimuth_rad = -2.0 * std::numbers::pi * column / kColumns;
+    for (int ring = 0; ring < 8; ++ring) {
+      const double elevation_rad = 0.03 * ring;
+      const double level_m = 20.0 + 5.0 * std::sin(3.0 * azimuth_rad);
+      points.push_back({static_cast<float>(x_m + level_m * std::cos(azimuth_rad)),
+                        static_cast<float>(level_m * std::sin(azimuth_rad)),
+                        static_cast<float>(level_m * std::tan(elevation_rad))});
+    }
+  }
+  ros::PointCloud2 cloud = CloudOf(points, 0);
+  cloud.header.frame_id = frame_id;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    cloud.data[17 * i + 15] = static_cast<std::uint8_t>(i % 8);
+    cloud.data[17 * i + 16] = 0;
+  }
+  return cloud;
+}
+
+// Raw turns are sent as of "map" to be shown; without transforms nothing says where it is.
+TEST(TfPoses, AreNotMissedByRawTurnsThatAreCalledFixed) {
+  for (const std::string frame_id : {"map", "world", "robot1/odom"}) {
+    for (const double x_m : {0.0, 12.0}) {
+      for (const bool has_transforms : {false, true}) {
+        MadeBag bag;
+        if (has_transforms) bag.Link("/b/tf", "base_link", "lidar", 0, At(0.0));
+        bag.Add("/a/points", 0, TurnFrom(x_m, frame_id));
+        const RecordedFrame frame = ReadAll(bag.Closed()).at(0);
+        const bool is_raw = x_m == 0.0 && !has_transforms;
+        EXPECT_EQ(frame.is_grid, is_raw) << frame_id << x_m;
+        EXPECT_EQ(frame.why_no_ranges.empty(), is_raw) << frame_id << x_m;
+        EXPECT_EQ(frame.frame.rows, is_raw ? 8U : 1U);
+      }
     }
   }
 }

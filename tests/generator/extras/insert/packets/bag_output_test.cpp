@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/input_file.h"
@@ -15,6 +17,8 @@
 #include "core/extras/ros/messages/sensor_messages.h"
 #include "core/extras/ros/recording/cloud_message.h"
 #include "core/extras/ros/recording/packet_messages.h"
+#include "core/io/write_file.h"
+#include "generator/extras/insert/run/insert_run.h"
 #include "tests/core/extras/packets/ouster/shared_captures.h"
 #include "tests/core/extras/ros/bag/read_bag.h"
 #include "tests/core/extras/ros/recording/made_bag.h"
@@ -23,6 +27,7 @@
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/extras/insert/packets/frame_edits.h"
 #include "tests/generator/extras/insert/packets/hand_edits.h"
+#include "tests/generator/extras/insert/plan/plan_project.h"
 #include "tests/support/hesai_bag.h"
 
 namespace railcast {
@@ -242,15 +247,94 @@ TEST(BagOutput, PutsRowsWhereTheyStandWhateverTheStepOfRowsIs) {
   });
 }
 
+constexpr std::size_t kNumAlternating = 300;
+
+/// Clouds of so many equal points on one topic, each alone in its chunk: one of "left" and then so
+/// many of "right", and so on.
+fs::path AlternatingBag(const fs::path& file, std::size_t num_left, std::size_t num_right) {
+  const std::vector<std::array<float, 3>> points(kNumAlternating, {1.0F, 2.0F, 3.0F});
+  const auto bag = bag::CreateMcap(file, bag::McapCompression::kNone);
+  std::int64_t time_ns = 0;
+  for (std::size_t i = 0; i < num_left * (1 + num_right); ++i) {
+    time_ns += kSecond_ns / 10;
+    ros::PointCloud2 cloud = CloudOf(points, time_ns);
+    cloud.header.frame_id = i % (1 + num_right) == 0 ? "left" : "right";
+    AddMessage(*bag, "/points", time_ns, cloud);
+    bag->Commit();
+  }
+  bag->Close();
+  return file;
+}
+
+// Else all that was edited would wait in memory for the end.
+TEST(BagOutput, WritesOneOfTwoSeriesWhileItIsTold) {
+  for (const auto& [series, num_right] :
+       {std::pair("left", std::size_t{1}), {"right", 1}, {"left", 3}, {"right", 3}}) {
+    SCOPED_TRACE(series + std::to_string(num_right));
+    constexpr std::size_t kNumLeft = 16;
+    const TemporaryDirectory folder;
+    const fs::path file = AlternatingBag(folder.path() / "run.mcap", kNumLeft, num_right);
+    const fs::path copy = folder.path() / "out" / "run.mcap";
+    fs::create_directories(copy.parent_path());
+    const fs::path source = file.string() + ":/points#" + series;
+    const auto recording = OpenRecording(source);
+    const auto output = MakeCopyOutput(source, copy.parent_path());
+    const std::size_t num = series == std::string("left") ? kNumLeft : num_right * kNumLeft;
+    for (std::size_t i = 0; i < num; ++i) {
+      const RecordedFirings firings =
+          FiringsOf((*recording->Next())(),
+                    std::vector<std::array<float, 4>>(kNumAlternating, {1.0F, 2.0F, 3.0F, 0.0F}));
+      HandEdit edit(firings.recorded);
+      edit.Remove(static_cast<std::uint32_t>(std::ranges::find(firings.recorded.frame.x, 1.0F) -
+                                             firings.recorded.frame.x.begin()));
+      ASSERT_TRUE(output->Write(firings, edit.Take()));
+      if (2 * (i + 1) != num) continue;
+      const auto written =
+          static_cast<double>(fs::file_size(copy.string() + std::string(kUnfinishedSuffix)));
+      // All up to this message, of which up to three of the other series follow, and what stands
+      // behind the messages at the end: less than a tenth.
+      EXPECT_NEAR(written / static_cast<double>(fs::file_size(file)), 0.5, 0.1);
+    }
+    output->Finish();
+    const auto before = bag::MessagesIn(file);
+    const auto after = bag::MessagesIn(copy);
+    ASSERT_EQ(after.size(), before.size());
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const bool is_left = i % (1 + num_right) == 0;
+      EXPECT_EQ(after[i] == before[i], is_left != (series == std::string("left"))) << i;
+    }
+  }
+}
+
+// By the check as by the run, which leaves no folder behind.
 TEST(BagOutput, RefusesCloudsOfLivox) {
-  MadeBag bag;
-  bag.Add("/livox", 0, ros::LivoxCloud{.header = {}, .points = {}});
-  const fs::path file = bag.Closed();
-  const TemporaryDirectory folder;
-  EXPECT_EQ(MessageOf([&] { (void)MakeCopyOutput(file, folder.path()); }),
-            file.string() +
-                ": must have clouds of type sensor_msgs/msg/PointCloud2 or packets to be inserted "
-                "into (got livox_ros_driver2/msg/CustomMsg)");
+  for (const std::string_view type :
+       {ros::LivoxCloud::kName, ros::LivoxCloud::kOlderNames[0], ros::LivoxCloud::kOlderNames[1]}) {
+    MadeBag bag;
+    const ros::LivoxCloud cloud = {
+        .header = {{}, "livox"}, .point_num = 1, .points = {{0, 1.0F, 2.0F, 3.0F, 200, 0, 1}}};
+    bag.Add("/livox", 0, cloud, type);
+    const fs::path file = bag.Closed();
+    const TemporaryDirectory folder;
+    const std::string refusal = file.string() +
+                                ": must have clouds of type sensor_msgs/msg/PointCloud2 or packets "
+                                "to be inserted into (got " +
+                                std::string(type) + ")";
+    EXPECT_EQ(MessageOf([&] { (void)MakeCopyOutput(file, folder.path()); }), refusal);
+    const InsertChoices choices = {
+        .recording = file,
+        .plan = WritePlan(folder.path(), R"({"poses": "standing"})", "", VelodyneOfPlan()),
+        .directory = folder.path() / "out",
+        .may_use_points_alone = true};
+    const InsertPlan plan = ReadInsertPlan(choices.plan, file);
+    EXPECT_EQ(MessageOf([&] { (void)CheckInsert(choices, plan); }), refusal);
+    EXPECT_EQ(MessageOf([&] {
+                (void)RunInsert(choices, plan,
+                                {[](std::uint32_t, std::uint32_t) {}, [] { return false; }});
+              }),
+              refusal);
+    EXPECT_FALSE(exists(choices.directory));
+  }
 }
 
 }  // namespace
