@@ -1,13 +1,7 @@
 #pragma once
 
-#include <tbb/global_control.h>
-
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <set>
-#include <thread>
 #include <vector>
 
 #include "core/base/error.h"
@@ -37,14 +31,6 @@ void AddVerify(ProgramOptions& app, ProgramCommand& command);
 void AddReceive(ProgramOptions& app, ProgramCommand& command);
 
 // What several commands do with their options.
-
-/// Limits the number of threads to that of --threads during the lifetime of the result; 0 = all
-/// cores.
-[[nodiscard]] inline tbb::global_control LimitThreads(int num_threads) {
-  const std::size_t most = num_threads > 0 ? static_cast<std::size_t>(num_threads)
-                                           : std::size_t{std::thread::hardware_concurrency()};
-  return {tbb::global_control::max_allowed_parallelism, most};
-}
 
 /// Checks that no source is given twice, since its samples would be counted twice and the intervals
 /// would be too narrow.

@@ -10,6 +10,7 @@
 #include "analysis/compare/comparison.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
+#include "analysis/thread_limit.h"
 #include "core/base/join.h"
 #include "core/fidelity/sample_frames.h"
 #include "core/io/recording/source_choice.h"

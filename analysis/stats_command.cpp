@@ -11,6 +11,7 @@
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "analysis/stats/statistics.h"
+#include "analysis/thread_limit.h"
 #include "core/base/join.h"
 #include "core/io/cloud/track_fields.h"
 #include "core/io/recording/recording_extras.h"

@@ -10,6 +10,7 @@
 #include "analysis/extras/fit/recorded_trials.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
+#include "analysis/thread_limit.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/source_choice.h"
 #include "core/io/run/run_folder.h"

@@ -8,6 +8,7 @@
 #include "analysis/extras/preset/receiver_figures.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
+#include "analysis/thread_limit.h"
 #include "core/base/error.h"
 #include "core/io/recording/source_choice.h"
 #include "core/program/version.h"
