@@ -105,49 +105,55 @@ std::string MillimetresText(const CertifiedFigure& figure) {
 }  // namespace
 
 void Describe(Archive& a, CertifiedFigure& s) {
-  a.Required("value", s.value, "");
+  a.Required("value", s.value, "The estimate.");
   a.Required("low", s.low, "Lower end of the 95 % interval.");
   a.Optional("high", s.high, "Upper end; left out where too little was drawn to tell.");
 }
 
 void Describe(Archive& a, CertifiedPart& s) {
-  a.Required("name", s.name, "Of the class, range or object.");
-  a.Required("echoes", s.echoes, "Echoes of the reference that were drawn.");
-  a.Optional("missed", s.missed, "Share of the reference's echoes that the run has not.");
-  a.Optional("false", s.wrong, "Share of the run's echoes that the reference has not.");
+  a.Required("name", s.name, "Name of the class, range or object.");
+  a.Required("echoes", s.echoes, "Number of the reference's echoes in the drawn firings.");
+  a.Optional("missed", s.missed, "Share of the reference's echoes that the run lacks.");
+  a.Optional("false", s.wrong, "Share of the run's echoes that the reference lacks.");
   a.Optional("other_label", s.other_label, "Share of the found echoes that have another label.");
   a.Optional("range_p50_m", s.range_p50_m, "Median of the range errors before noise.");
-  a.Optional("range_p95_m", s.range_p95_m, "Their 95 % quantile.");
-  a.Optional("power_p50", s.power_p50, "Median of |power / the reference's - 1|.");
-  a.Optional("power_p95", s.power_p95, "Its 95 % quantile.");
+  a.Optional("range_p95_m", s.range_p95_m, "The 95 % quantile of the range errors before noise.");
+  a.Optional("power_p50", s.power_p50,
+             "Median of the relative errors of the power, without a sign.");
+  a.Optional("power_p95", s.power_p95, "The 95 % quantile of the relative errors of the power.");
 }
 
 void Describe(Archive& a, CertifiedRung& s) {
-  a.Required("name", s.name, "");
-  a.Required("cost", s.cost, "In multiples of the run's own, by the table of costs.");
-  a.Optional("missed", s.missed, "As of the run.");
-  a.Optional("false", s.wrong, "Likewise.");
+  a.Required("name", s.name, "Name of the rung.");
+  a.Required("cost", s.cost, "Its cost in multiples of the run's own, by the table of costs.");
+  a.Optional("missed", s.missed, "Share of the reference's echoes that the rung lacks.");
+  a.Optional("false", s.wrong, "Share of the rung's echoes that the reference lacks.");
 }
 
 void Describe(Archive& a, CertifiedTolerance& s) {
-  a.Required("frames_within", s.frames_within, "Frames whose intervals are within it.");
-  a.Required("frames_beyond", s.frames_beyond, "Frames with an interval that is beyond it.");
-  a.Required("within", s.is_within, "Whether the figures of the whole run are within it.");
+  a.Required("frames_within", s.frames_within,
+             "Number of frames whose intervals are within the tolerance.");
+  a.Required("frames_beyond", s.frames_beyond,
+             "Number of frames with an interval beyond the tolerance.");
+  a.Required("within", s.is_within,
+             "Whether the figures of the whole run are within the tolerance.");
 }
 
 void Describe(Archive& a, RunCertificate& s) {
-  a.Required("cost_share", s.cost_share, "As --certify gave it.");
-  a.Required("frames", s.frames, "");
-  a.Required("firings", s.firings, "Of all frames.");
-  a.Required("drawn", s.drawn, "Firings that were made anew.");
+  a.Required("cost_share", s.cost_share,
+             "Share of the time that `--certify` gave to certificates.");
+  a.Required("frames", s.frames, "Number of certified frames.");
+  a.Required("firings", s.firings, "Number of firings in these frames.");
+  a.Required("drawn", s.drawn, "Number of firings that were made anew.");
   a.Required("without_drawn", s.without_drawn,
              "Share of the firings in strata of which none was drawn.");
   a.Required("all", s.all, "Figures over all echoes of surfaces.");
-  a.Optional("classes", s.classes, "By label.");
-  a.Optional("ranges", s.ranges, "By range.");
-  a.Optional("objects", s.objects, "By object.");
-  a.Optional("rungs", s.rungs, "What the rungs beside would have given, on the same firings.");
-  a.Optional("tolerance", s.tolerance, "Of fidelity `auto`: where it held.");
+  a.Optional("classes", s.classes, "Figures for each label.");
+  a.Optional("ranges", s.ranges, "Figures for each bin of range.");
+  a.Optional("objects", s.objects, "Figures for each object.");
+  a.Optional("rungs", s.rungs,
+             "What the neighbouring rungs would have given for the same firings.");
+  a.Optional("tolerance", s.tolerance, "Where the tolerance of fidelity `auto` held.");
 }
 
 void CertificateSums::Add(const FrameCertificate& frame) {

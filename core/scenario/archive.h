@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <map>
@@ -70,10 +71,25 @@ template <class T, class Rule>
 
 inline constexpr Anything kAnything;
 
+/// What the value of a key means, for schemas and pages. An empty text does not compile.
+class KeyDoc {
+ public:
+  /// Implicit, so that a key can be described by a literal.
+  template <std::size_t kSize>
+  constexpr KeyDoc(const char (&text)[kSize]) : text_(text) {
+    static_assert(kSize > 1, "the description of a key must say what its value means");
+  }
+
+  [[nodiscard]] constexpr const char* text() const { return text_; }
+
+ private:
+  const char* text_;
+};
+
 /// A key of an object.
 struct Key {
   std::string_view name;
-  const char* doc{};  ///< What the value means, for the schema.
+  KeyDoc doc;
   RuleRef rule = kAnything;
   bool is_required{};
   bool is_nullable{};  ///< Whether it is null where an optional value is absent.
@@ -94,20 +110,20 @@ class Archive {
 
   /// The key must be given.
   template <class T, class Rule = Anything>
-  void Required(std::string_view key, T& value, const char* doc, const Rule& rule = {}) {
+  void Required(std::string_view key, T& value, KeyDoc doc, const Rule& rule = {}) {
     static_assert(CanKeep<T, Rule>(), "no value of this type keeps or breaks this rule");
     Visit({key, doc, rule, true}, RefTo(value));
   }
   /// If the key is absent, the struct's default is kept; a std::optional stays empty.
   template <class T, class Rule = Anything>
-  void Optional(std::string_view key, T& value, const char* doc, const Rule& rule = {}) {
+  void Optional(std::string_view key, T& value, KeyDoc doc, const Rule& rule = {}) {
     static_assert(CanKeep<T, Rule>(), "no value of this type keeps or breaks this rule");
     Visit({key, doc, rule, false}, RefTo(value));
   }
   /// The key is left out where the value is `absent`. Returns whether it is given.
   template <class T, class Rule = Anything>
   bool OptionalUnless(
-      std::string_view key, T& value, const T& absent, const char* doc, const Rule& rule = {}) {
+      std::string_view key, T& value, const T& absent, KeyDoc doc, const Rule& rule = {}) {
     std::optional<T> given;
     if (value != absent) given = value;
     Optional(key, given, doc, rule);
@@ -116,16 +132,13 @@ class Archive {
   }
   /// The key is null where there is no value.
   template <class T, class Rule = Anything>
-  void Nullable(std::string_view key,
-                std::optional<T>& value,
-                const char* doc,
-                const Rule& rule = {}) {
+  void Nullable(std::string_view key, std::optional<T>& value, KeyDoc doc, const Rule& rule = {}) {
     static_assert(CanKeep<T, Rule>(), "no value of this type keeps or breaks this rule");
     Visit({key, doc, rule, true, true}, RefTo(value));
   }
   /// A list, or a file that holds it under the same key.
   template <class T>
-  void RequiredLibrary(std::string_view key, std::vector<T>& values, const char* doc) {
+  void RequiredLibrary(std::string_view key, std::vector<T>& values, KeyDoc doc) {
     VisitLibrary({key, doc, NonEmptyList(), true}, RefTo(values));
   }
   /// No two elements of the list may agree in a member.
@@ -146,20 +159,20 @@ class Archive {
   virtual void Alternative(std::string_view /*key*/,
                            double& /*value*/,
                            const Multiple& /*multiple*/,
-                           const char* /*doc*/,
+                           KeyDoc /*doc*/,
                            const Limits& /*limits*/) {}
   /// A file of another format, which gives values to keys.
   virtual void Preset(std::string_view key,
                       std::optional<std::string>& file,
-                      const char* doc,
+                      KeyDoc doc,
                       const FilePreset& preset) = 0;
   /// A list or file like a library, which may be absent, of types that the objects described after
   /// it may have.
-  virtual void Types(std::string_view key, std::vector<ModelSpec>& models, const char* doc) = 0;
+  virtual void Types(std::string_view key, std::vector<ModelSpec>& models, KeyDoc doc) = 0;
   /// An object of flags.
   virtual void Switches(std::string_view key,
                         std::map<std::string, bool>& switches,
-                        const char* doc,
+                        KeyDoc doc,
                         const std::vector<std::string>& names) = 0;
   /// A rule across the fields of `keys`. The message is about the value of the first key, or about
   /// the whole object if that is "".

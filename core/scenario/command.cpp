@@ -115,7 +115,7 @@ bool PlacesMesh(JsonSource& source, const Node& command) {
 // Reads the session and the id, of which neither may be given alone. Without a session, a restarted
 // client could take the acknowledgement of an old command with the same id for that of a new one.
 void ReadTag(JsonSource& source, const Node& object, JsonReader& reader, CommandTag& tag) {
-  const auto read = [&](const char* key, auto& value, const char* doc, const auto& rule) {
+  const auto read = [&](const char* key, auto& value, KeyDoc doc, const auto& rule) {
     const std::size_t num_faults = source.errors().size();
     reader.Optional(key, value, doc, rule);
     if (source.errors().size() > num_faults) value.reset();

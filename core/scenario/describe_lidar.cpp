@@ -229,7 +229,7 @@ void Describe(Archive& a, LidarSpec& s) {
            {"scan", [&s](const std::string& text) { UseOusterMetadata(text, s); }});
   if (s.ouster_metadata) {
     std::optional<ScanSpec> none;
-    a.Optional("scan", none, "");
+    a.Optional("scan", none, "None, as the metadata say how it scans.");
     a.Ensure({"scan", "ouster_metadata"}, !none, "must be left out with ouster_metadata");
   } else {
     a.Required("scan", s.scan, "The firings of a frame; required without ouster_metadata.");

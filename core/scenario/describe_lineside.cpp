@@ -24,7 +24,7 @@ void DescribePoint(Archive& a, Structure& s) {
 
 /// The keys of FacingSpec.
 template <class Structure>
-void DescribeFacing(Archive& a, Structure& s, const char* height_doc) {
+void DescribeFacing(Archive& a, Structure& s, KeyDoc height_doc) {
   DescribePoint(a, s);
   a.Required("kind", s.kind, "Its kind.");
   a.Optional("direction", s.direction,

@@ -41,12 +41,12 @@ class SpecChecker final : public Archive {
   // Of files only.
   void Preset(std::string_view,
               std::optional<std::string>&,
-              const char*,
+              KeyDoc,
               const FilePreset&) override {}
-  void Types(std::string_view, std::vector<ModelSpec>&, const char*) override {}
+  void Types(std::string_view, std::vector<ModelSpec>&, KeyDoc) override {}
   void Switches(std::string_view,
                 std::map<std::string, bool>&,
-                const char*,
+                KeyDoc,
                 const std::vector<std::string>&) override {}
 
  private:
@@ -208,12 +208,12 @@ void CheckDetectorSpec(const DetectorSpec& spec) {
   ErrorList errors;
   SpecChecker checker("", errors);
   DescribeRange(checker, copy);
-  checker.Required("plausibility", copy.plausibility, "");
-  checker.Required("beam", copy.beam, "");
-  checker.Required("receiver", copy.receiver, "");
-  checker.Required("cover", copy.cover, "");
-  checker.Required("velocity", copy.velocity, "");
-  checker.Required("weather", copy.weather, "");
+  checker.Required("plausibility", copy.plausibility, "Which checks of plausibility there are.");
+  checker.Required("beam", copy.beam, "What the beam is like.");
+  checker.Required("receiver", copy.receiver, "What the receiver is like.");
+  checker.Required("cover", copy.cover, "What is on the window.");
+  checker.Required("velocity", copy.velocity, "How velocities are measured.");
+  checker.Required("weather", copy.weather, "The weather.");
   errors.ThrowIfAny();
 }
 

@@ -93,7 +93,7 @@ void ReadVariant(JsonSource& source, const Node& node, const ValueRef& variant) 
   const auto index = static_cast<std::size_t>(found - names.begin());
   variant.type->renew(variant.place, index);
   JsonReader reader(source, node, *list);
-  reader.Required("type", type, "");
+  reader.Required("type", type, "Which of the alternatives it is.");
   alternatives[index].type->describe(reader, variant.type->at(variant.place, index));
   reader.Finish();
 }
@@ -176,7 +176,7 @@ void JsonReader::Visit(const Key& key, const ValueRef& value) {
 
 void JsonReader::Preset(std::string_view key,
                         std::optional<std::string>& file,
-                        const char* doc,
+                        KeyDoc doc,
                         const FilePreset& preset) {
   std::string name;
   Optional(key, name, doc, ExistingFile{});
@@ -211,7 +211,7 @@ void JsonReader::VisitLibrary(const Key& key, const ValueRef& list) {
   source_.sources().Add(node->resolved_pointer, root->file->shown, PointerStep(key.name));
 }
 
-void JsonReader::Types(std::string_view key, std::vector<ModelSpec>& models, const char* doc) {
+void JsonReader::Types(std::string_view key, std::vector<ModelSpec>& models, KeyDoc doc) {
   const Node* node = Find(key);
   if (node == nullptr) {
     keys_.emplace_back(key);
@@ -252,7 +252,7 @@ void JsonReader::CheckUnique(std::string_view key,
 void JsonReader::Alternative(std::string_view key,
                              double& value,
                              const Multiple& multiple,
-                             const char* doc,
+                             KeyDoc doc,
                              const Limits& limits) {
   double given = 0.0;
   Optional(key, given, doc, limits);
@@ -266,7 +266,7 @@ void JsonReader::Alternative(std::string_view key,
 
 void JsonReader::Switches(std::string_view key,
                           std::map<std::string, bool>& switches,
-                          const char* doc,
+                          KeyDoc doc,
                           const std::vector<std::string>& names) {
   keys_.emplace_back(key);
   const Node* node = Find(key);

@@ -22,17 +22,17 @@ class JsonReader final : public Archive {
   void OneOfTwo(std::string_view key, std::string_view other) override;
   void Preset(std::string_view key,
               std::optional<std::string>& file,
-              const char* doc,
+              KeyDoc doc,
               const FilePreset& preset) override;
   void Alternative(std::string_view key,
                    double& value,
                    const Multiple& multiple,
-                   const char* doc,
+                   KeyDoc doc,
                    const Limits& limits) override;
-  void Types(std::string_view key, std::vector<ModelSpec>& models, const char* doc) override;
+  void Types(std::string_view key, std::vector<ModelSpec>& models, KeyDoc doc) override;
   void Switches(std::string_view key,
                 std::map<std::string, bool>& switches,
-                const char* doc,
+                KeyDoc doc,
                 const std::vector<std::string>& names) override;
   void Ensure(std::initializer_list<std::string_view> keys,
               bool holds,

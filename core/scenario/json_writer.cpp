@@ -9,18 +9,18 @@ namespace railcast {
 
 void JsonWriter::Preset(std::string_view key,
                         std::optional<std::string>& file,
-                        const char* doc,
+                        KeyDoc doc,
                         const FilePreset& /*preset*/) {
   Optional(key, file, doc);
 }
 
-void JsonWriter::Types(std::string_view key, std::vector<ModelSpec>& models, const char* doc) {
+void JsonWriter::Types(std::string_view key, std::vector<ModelSpec>& models, KeyDoc doc) {
   if (!models.empty()) Required(key, models, doc);
 }
 
 void JsonWriter::Switches(std::string_view key,
                           std::map<std::string, bool>& switches,
-                          const char* /*doc*/,
+                          KeyDoc /*doc*/,
                           const std::vector<std::string>& /*names*/) {
   object_[std::string(key)] = switches;
 }

@@ -18,12 +18,12 @@ class JsonWriter final : public Archive {
  public:
   void Preset(std::string_view key,
               std::optional<std::string>& file,
-              const char* doc,
+              KeyDoc doc,
               const FilePreset& preset) override;
-  void Types(std::string_view key, std::vector<ModelSpec>& models, const char* doc) override;
+  void Types(std::string_view key, std::vector<ModelSpec>& models, KeyDoc doc) override;
   void Switches(std::string_view key,
                 std::map<std::string, bool>& switches,
-                const char* doc,
+                KeyDoc doc,
                 const std::vector<std::string>& names) override;
 
   template <class T>

@@ -37,7 +37,7 @@ void DescribeRange(Archive& a, Spec& s) {
 
 /// The keys that all structures have.
 template <class Structure>
-void DescribeNameAndTrack(Archive& a, Structure& s, const char* track_doc) {
+void DescribeNameAndTrack(Archive& a, Structure& s, KeyDoc track_doc) {
   a.Required("name", s.name, "Unique among the structures.", NonEmptyString());
   a.Optional("track", s.track, track_doc);
 }

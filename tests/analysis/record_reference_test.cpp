@@ -67,21 +67,18 @@ class RecordRows final : public Archive {
  public:
   RecordRows(std::string prefix, std::string& rows) : prefix_(std::move(prefix)), rows_(rows) {}
 
-  void Preset(std::string_view,
-              std::optional<std::string>&,
-              const char*,
-              const FilePreset&) override {}
-  void Types(std::string_view, std::vector<ModelSpec>&, const char*) override {}
+  void Preset(std::string_view, std::optional<std::string>&, KeyDoc, const FilePreset&) override {}
+  void Types(std::string_view, std::vector<ModelSpec>&, KeyDoc) override {}
   void Switches(std::string_view,
                 std::map<std::string, bool>&,
-                const char*,
+                KeyDoc,
                 const std::vector<std::string>&) override {}
 
  private:
   void Visit(const Key& key, const ValueRef& value) override {
     const std::string name = prefix_ + std::string(key.name);
     rows_ += "| `" + name + "` | " + TypeText(*value.type) + (key.is_nullable ? " or null" : "") +
-             " | " + (key.is_required ? "" : "*Optional.* ") + key.doc + " |\n";
+             " | " + (key.is_required ? "" : "*Optional.* ") + key.doc.text() + " |\n";
     AddRowsOf(*value.type, name);
   }
 

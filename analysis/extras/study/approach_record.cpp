@@ -115,37 +115,42 @@ void Describe(Archive& a, ApproachCertificate& s) {
 }
 
 void Describe(Archive& a, StudiedObject& s) {
-  a.Required("name", s.name, "");
-  a.Required("type", s.type, "");
-  a.Required("detected", s.is_detected, "");
+  a.Required("name", s.name, "Name of the object.");
+  a.Required("type", s.type, "Type of the object.");
+  a.Required("detected", s.is_detected, "Whether it was detected.");
   std::optional<double> distance_m;
   if (!std::isnan(s.distance_m)) distance_m = s.distance_m;
-  a.Nullable("distance_m", distance_m, "At which it was detected.");
+  a.Nullable("distance_m", distance_m, "Distance at which it was detected.");
   s.distance_m = distance_m.value_or(std::numeric_limits<double>::quiet_NaN());
-  a.Required("frame", s.frame, "The one that completes the rule, or that of the closest point.");
+  a.Required(
+      "frame", s.frame,
+      "Number of the frame that completes the rule, or else of the one with the closest point.");
   a.Required("from_start", s.is_from_start, "Whether the first frames complete the rule.");
-  a.Required("nearest_m", s.nearest_m, "Distances of the approach.");
-  a.Required("farthest_m", s.farthest_m, "");
-  a.Required("speed_mps", s.speed_mps, "At the detection, or where it was first in range.");
-  a.Required("needed_m", s.needed_m, "To stop, with the margin.");
-  a.Required("drawn", s.drawn, "Of the object itself, by JSON pointer.");
+  a.Required("nearest_m", s.nearest_m, "Least distance of the approach.");
+  a.Required("farthest_m", s.farthest_m,
+             "Greatest distance of the approach, from the first sighting on.");
+  a.Required("speed_mps", s.speed_mps,
+             "Speed at the detection, or else where it was first in range.");
+  a.Required("needed_m", s.needed_m, "Distance that the vehicle needs to stop, with the margin.");
+  a.Required("drawn", s.drawn, "The values drawn for the object itself, by JSON pointer.");
 }
 
 void Describe(Archive& a, FalseAlarm& s) {
-  a.Required("frame", s.frame, "The one that completes the rule.");
+  a.Required("frame", s.frame, "Number of the frame that completes the rule.");
   a.Required("s_m", s.s_m, "Chainage of the nearest box.");
-  a.Required("distance_m", s.distance_m, "Of that box.");
+  a.Required("distance_m", s.distance_m, "Distance of that box.");
   a.Required("object", s.object, "The object that is not in the way; empty where there is none.");
   a.Required("cause", s.cause, "Label of most of the box's points, or the detector's word.");
 }
 
 void Describe(Archive& a, ApproachRecord& s) {
-  a.Required("scenario", s.scenario, "Its number.");
-  a.Required("seed", s.seed, "");
-  a.Required("base", s.base, "Name of its file.");
-  a.Required("drawn", s.drawn, "Values by their names or JSON pointers.");
-  a.Required("objects", s.objects, "Those in the way that are approached.");
-  a.Optional("cheap_spare_m", s.cheap_spare_m, "On the cheaper rung, where both were made.");
+  a.Required("scenario", s.scenario, "Number of the scenario.");
+  a.Required("seed", s.seed, "Seed of the scenario.");
+  a.Required("base", s.base, "Name of the base scenario's file.");
+  a.Required("drawn", s.drawn, "The drawn values, by their names or JSON pointers.");
+  a.Required("objects", s.objects, "The objects in the way that are approached.");
+  a.Optional("cheap_spare_m", s.cheap_spare_m,
+             "Least distance to spare on the cheaper rung, if both were made.");
   std::optional<double> driven_m;
   std::optional<std::vector<std::string>> beside;
   std::optional<std::vector<FalseAlarm>> alarms;
@@ -154,9 +159,10 @@ void Describe(Archive& a, ApproachRecord& s) {
     beside = s.alarms->beside;
     alarms = s.alarms->alarms;
   }
-  a.Optional("driven_m", driven_m, "Of studies with a detector, as the next two.");
+  a.Optional("driven_m", driven_m,
+             "Distance driven; like the next two, only in studies with a detector.");
   a.Optional("beside", beside, "Objects that must raise no alarm.");
-  a.Optional("false_alarms", alarms, "");
+  a.Optional("false_alarms", alarms, "The false alarms.");
   a.Ensure({"driven_m"}, driven_m.has_value() == (beside && alarms),
            "must stand with beside and false_alarms");
   a.Optional("certificate", s.certificate, "The numerical error of the objects' echoes.");

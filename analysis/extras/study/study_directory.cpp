@@ -22,23 +22,23 @@
 namespace railcast {
 
 void Describe(Archive& a, StudyFramesRecord& s) {
-  a.Required("first", s.first, "");
-  a.Required("stride", s.stride, "");
-  a.Required("num", s.num, "");
+  a.Required("first", s.first, "Number of the first frame.");
+  a.Required("stride", s.stride, "Step from one frame's number to the next.");
+  a.Required("num", s.num, "Number of frames.");
 }
 
 void Describe(Archive& a, StudyRecord& s) {
-  a.Required("version", s.version, "Of railcast.");
-  a.Required("embree", s.embree, "Its version.");
+  a.Required("version", s.version, "Version of railcast.");
+  a.Required("embree", s.embree, "Version of Embree.");
   a.Required("isa", s.isa, "Instruction set of the tracing.");
   a.Required("study_xxh3", s.study_hash, "Hash of the study's file.");
-  a.Required("recipe_xxh3", s.recipe_hash, "Hash of its recipe.");
+  a.Required("recipe_xxh3", s.recipe_hash, "Hash of the study's recipe.");
   a.Required("bases_xxh3", s.base_hashes, "Hashes of the resolved bases.");
   a.Required("files_xxh3", s.files_hash, "Hash of the files that the recipe names.");
-  a.Required("num_scenarios", s.num_scenarios, "Of all shards.");
-  a.Required("frames", s.frames, "Of each approach.");
+  a.Required("num_scenarios", s.num_scenarios, "Number of scenarios in all shards together.");
+  a.Required("frames", s.frames, "Which frames of each approach are made.");
   a.Optional("certify", s.certify, "Share of the time that certificates may take.");
-  a.Optional("shard", s.shard, "Number and count: 2/7.");
+  a.Optional("shard", s.shard, "Number and count of the shard, as in 2/7.");
   a.Optional("rare", s.rare, "How rare failures are sought.");
   a.Ensure({"shard"}, s.shard.empty() || ParseShard(s.shard), "must be a shard");
 }

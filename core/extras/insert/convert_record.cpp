@@ -7,14 +7,15 @@
 namespace railcast {
 
 void Describe(Archive& a, ConvertRunRecord& s) {
-  a.Required("version", s.version, "Of railcast.");
-  a.Required("recording", s.recording, "Its path, as the command line names it.");
-  a.Required("recording_xxh3", s.recording_hash, "Hash of its files' names and hashes.");
-  a.Required("kind", s.kind, "What the recording is.");
-  a.Required("format", s.format, "");
-  a.Required("fields", s.fields, "As --fields names them.");
-  a.Required("first_frame", s.first_frame, "");
-  a.Required("num_frames", s.num_frames, "");
+  a.Required("version", s.version, "Version of railcast.");
+  a.Required("recording", s.recording, "Path of the recording, as the command line names it.");
+  a.Required("recording_xxh3", s.recording_hash,
+             "Hash of the names and hashes of the recording's files.");
+  a.Required("kind", s.kind, "What kind of recording it is.");
+  a.Required("format", s.format, "Format of the clouds, as `--format` names it.");
+  a.Required("fields", s.fields, "Fields of the points, as `--fields` names them.");
+  a.Required("first_frame", s.first_frame, "Number of the first frame, in the recording.");
+  a.Required("num_frames", s.num_frames, "Number of frames.");
 }
 
 void Describe(Archive& a, ConvertManifestRecord& s) {
@@ -24,11 +25,12 @@ void Describe(Archive& a, ConvertManifestRecord& s) {
 }
 
 void Describe(Archive& a, ConvertRecord& s) {
-  a.Required("frame", s.frame.frame, "Its number in the recording.");
-  a.Required("stamp_ns", s.frame.stamp_ns, "");
-  a.Required("points", s.frame.counts.points, "");
-  a.Optional("lost", s.lost, "Of this frame, as in manifest.json.");
-  a.Required("files", s.frame.files, "Of this frame.");
+  a.Required("frame", s.frame.frame, "Number of the frame in the recording.");
+  a.Required("stamp_ns", s.frame.stamp_ns, "Stamp of the frame.");
+  a.Required("points", s.frame.counts.points, "Number of slots with a point.");
+  a.Optional("lost", s.lost,
+             "What of this frame the format has no place for, as in manifest.json.");
+  a.Required("files", s.frame.files, "The frame's files.");
   a.Required("records_xxh3", s.frame.records_hash, "Hash of the frame's lines in the other files.");
 }
 

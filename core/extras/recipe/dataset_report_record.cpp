@@ -28,33 +28,40 @@ void EnsureAtMost(Archive& a, std::string_view key, std::uint64_t count, std::ui
 }  // namespace
 
 void Describe(Archive& a, SplitCountsRecord& s) {
-  a.Required("scenarios", s.scenarios, "");
-  a.Required("frames", s.frames, "");
-  a.Required("points", s.points, "");
+  a.Required("scenarios", s.scenarios, "Number of scenarios in this part.");
+  a.Required("frames", s.frames, "Number of frames in this part.");
+  a.Required("points", s.points, "Number of points in these frames.");
 }
 
 void Describe(Archive& a, LabelCountsRecord& s) {
-  a.Required("points", s.points, "");
-  a.Required("share", s.share, "Of all points.");
-  a.Required("frames", s.frames, "With such a point.");
+  a.Required("points", s.points, "Number of points with this label.");
+  a.Required("share", s.share, "Their share of all points.");
+  a.Required("frames", s.frames, "Number of frames with at least one such point.");
 }
 
 void Describe(Archive& a, DistanceCounts& s) {
-  for (std::size_t i = 0; i < s.size(); ++i) a.Required(DistanceBinName(i), s[i], "");
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    a.Required(DistanceBinName(i), s[i], "How many have this distance.");
+  }
 }
 
 void Describe(Archive& a, OcclusionCounts& s) {
-  for (std::size_t i = 0; i < s.size(); ++i) a.Required(kOcclusionBinNames[i], s[i], "");
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    a.Required(kOcclusionBinNames[i], s[i], "How many are hidden by this share.");
+  }
 }
 
 void Describe(Archive& a, TypeCountsRecord& s) {
-  a.Required("objects", s.objects, "Distinct ones; the others count an object in each frame.");
-  a.Required("in_frames", s.in_frames, "");
-  a.Required("with_points", s.with_points, "");
-  a.Required("points", s.points, "");
-  a.Required("by_distance", s.by_distance, "");
-  a.Required("points_by_distance", s.points_by_distance, "");
-  a.Required("by_occlusion", s.by_occlusion, "");
+  a.Required("objects", s.objects,
+             "Number of distinct objects; the other keys count an object in each frame.");
+  a.Required("in_frames", s.in_frames, "How often an object of this type is in a frame.");
+  a.Required("with_points", s.with_points, "How often it has a point there.");
+  a.Required("points", s.points, "Number of points on objects of this type.");
+  a.Required("by_distance", s.by_distance, "Objects in frames, by distance from the sensor.");
+  a.Required("points_by_distance", s.points_by_distance,
+             "Points on objects, by the object's distance.");
+  a.Required("by_occlusion", s.by_occlusion,
+             "Objects in frames, by the hidden share of their firings.");
   EnsureAtMost(a, "objects", s.objects, s.in_frames);
   EnsureAtMost(a, "with_points", s.with_points, s.in_frames);
   EnsureSum(a, "by_distance", s.by_distance, s.in_frames, kItself);
@@ -63,18 +70,20 @@ void Describe(Archive& a, TypeCountsRecord& s) {
 }
 
 void Describe(Archive& a, DatasetReportRecord& s) {
-  a.Required("num_frames", s.num_frames, "");
-  a.Required("splits", s.splits, "By part.");
-  a.Required("frames_without_points", s.frames_without_points, "");
-  a.Required("frames_without_objects", s.frames_without_objects, "With no point on any object.");
-  a.Required("duplicate_frames", s.duplicate_frames, "Of frames with the same bytes, all but one.");
+  a.Required("num_frames", s.num_frames, "Number of frames in the data set.");
+  a.Required("splits", s.splits, "Counts for each part: train, val and test.");
+  a.Required("frames_without_points", s.frames_without_points, "Number of frames without a point.");
+  a.Required("frames_without_objects", s.frames_without_objects,
+             "Number of frames without a point on any object.");
+  a.Required("duplicate_frames", s.duplicate_frames,
+             "Number of frames whose bytes repeat those of another frame.");
   DescribeKnown(a, s.counts);
-  a.Required("labels", s.labels, "By label; empty where labels are not counted.");
-  a.Required("objects", s.objects, "By type.");
-  a.Required("weathers", s.weathers, "Scenarios.");
-  a.Required("drawn", s.drawn, "Scenarios by the words of each draw.");
-  a.Required("frames_by_base", s.frames_by_base, "");
-  a.Required("frames_by_sensor", s.frames_by_sensor, "");
+  a.Required("labels", s.labels, "Counts for each label; empty where labels are not counted.");
+  a.Required("objects", s.objects, "Counts for each type of object.");
+  a.Required("weathers", s.weathers, "Number of scenarios with each kind of weather.");
+  a.Required("drawn", s.drawn, "Number of scenarios with each value of the draws between words.");
+  a.Required("frames_by_base", s.frames_by_base, "Number of frames of each base scenario.");
+  a.Required("frames_by_sensor", s.frames_by_sensor, "Number of frames of each sensor.");
   EnsureAtMost(a, "frames_without_points", s.frames_without_points, s.num_frames);
   EnsureAtMost(a, "frames_without_objects", s.frames_without_objects, s.num_frames);
   EnsureAtMost(a, "duplicate_frames", s.duplicate_frames, s.num_frames);

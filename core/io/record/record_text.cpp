@@ -59,18 +59,18 @@ class RecordWriter final : public Archive {
 
   void Preset(std::string_view /*key*/,
               std::optional<std::string>& /*file*/,
-              const char* /*doc*/,
+              KeyDoc /*doc*/,
               const FilePreset& /*preset*/) override {
     Check(false, "a record has no preset");
   }
   void Types(std::string_view /*key*/,
              std::vector<ModelSpec>& /*models*/,
-             const char* /*doc*/) override {
+             KeyDoc /*doc*/) override {
     Check(false, "a record has no models");
   }
   void Switches(std::string_view /*key*/,
                 std::map<std::string, bool>& /*switches*/,
-                const char* /*doc*/,
+                KeyDoc /*doc*/,
                 const std::vector<std::string>& /*names*/) override {
     Check(false, "a record has no switches");
   }

@@ -13,6 +13,24 @@
 #include "core/scenario/archive.h"
 
 namespace railcast {
+namespace {
+
+// What the counts of kOutcomeNames mean.
+constexpr std::array<KeyDoc, kOutcomeNames.size()> kOutcomeDocs = {
+    "Firings of which a surface returned an echo.",
+    "Firings without a surface within range_max_m.",
+    "Firings whose measured range is beyond the sensor's range gate.",
+    "Firings whose received power is below the detection threshold.",
+    "Firings that rain absorbed on the way.",
+    "Firings with an echo of rain, snow, fog, a mirror image or the sensor itself.",
+    "Firings that a surface nearer than range_min_m blocked.",
+    "Firings that the vehicle's own body blocked.",
+    "Firings of which the sensor missed the pulse.",
+    "None: only second and later slots of a firing have this outcome.",
+    "Firings lost to drops, dirt or snow on the sensor's window.",
+};
+
+}  // namespace
 
 Eigen::Quaterniond CanonicalRotation(const Transform& transform) {
   Eigen::Quaterniond rotation(transform.linear());
@@ -41,7 +59,7 @@ std::string PoseLine(const PoseRecord& pose) {
 }
 
 void DescribeRotation(Archive& a, Eigen::Quaterniond& rotation) {
-  a.Required("quaternion_xyzw", rotation, "Turns from these axes to those around.");
+  a.Required("quaternion_xyzw", rotation, "Rotation from these axes to those around them.");
   a.Ensure({"quaternion_xyzw"}, IsUnit(rotation), "must have length 1");
 }
 
@@ -83,13 +101,16 @@ Transform ReadPoseLine(std::string_view line, std::int64_t stamp_ns, const std::
 }
 
 void Describe(Archive& a, OutcomeCounts& s) {
-  for (std::size_t i = 0; i < s.size(); ++i) a.Required(kOutcomeNames[i], s[i], "");
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    a.Required(kOutcomeNames[i], s[i], kOutcomeDocs[i]);
+  }
 }
 
 void Describe(Archive& a, FrameCounts& s) {
-  a.Required("points", s.points, "Slots with a point.");
-  a.Required("outcomes", s.outcomes, "Firings with each outcome.");
-  a.Required("points_per_label", s.points_per_label, "Of the labels that have any.");
+  a.Required("points", s.points, "Number of slots with a point.");
+  a.Required("outcomes", s.outcomes, "Number of firings with each outcome.");
+  a.Required("points_per_label", s.points_per_label,
+             "Number of points with each label that has any.");
 }
 
 void DescribeKnown(Archive& a, FrameCounts& s) {
@@ -99,9 +120,10 @@ void DescribeKnown(Archive& a, FrameCounts& s) {
     outcomes = s.outcomes;
     points_per_label = s.points_per_label;
   }
-  a.Required("points", s.points, "Slots with a point.");
-  a.Optional("outcomes", outcomes, "Firings with each outcome, where they are known.");
-  a.Optional("points_per_label", points_per_label, "Of the labels that have any; known with them.");
+  a.Required("points", s.points, "Number of slots with a point.");
+  a.Optional("outcomes", outcomes, "Number of firings with each outcome, where they are known.");
+  a.Optional("points_per_label", points_per_label,
+             "Number of points with each label; known with the outcomes.");
   if (outcomes) s.outcomes = *outcomes;
   if (points_per_label) s.points_per_label = *std::move(points_per_label);
 }
@@ -162,25 +184,25 @@ std::vector<ScanPose> ScanPosesOf(const std::vector<RecordedScanPose>& poses) {
 }
 
 void Describe(Archive& a, RecordedScanPose& s) {
-  a.Required("time_ns", s.time_ns, "Since the frame's stamp.");
-  a.Required("position_m", s.position_m, "In the world.");
+  a.Required("time_ns", s.time_ns, "Time since the frame's stamp.");
+  a.Required("position_m", s.position_m, "Position in the world.");
   DescribeRotation(a, s.rotation);
 }
 
 void Describe(Archive& a, FrameRecord& s) {
-  a.Required("frame", s.frame, "Its number.");
-  a.Required("stamp_ns", s.stamp_ns, "Simulation time.");
+  a.Required("frame", s.frame, "Number of the frame.");
+  a.Required("stamp_ns", s.stamp_ns, "Simulation time of the frame.");
   a.Required("scan_poses", s.scan_poses,
              "The sensor's poses after the stamp, of which the last is that of the last firing.",
              NonEmptyList());
-  a.Required("files", s.files, "Of this frame.");
+  a.Required("files", s.files, "The frame's files.");
   a.Required("records_xxh3", s.records_hash, "Hash of the frame's lines in the other line files.");
   a.Optional("motion_lines", s.motion_lines,
              "How many lines of each motion sensor's file belong to the frame.");
   a.Optional("clouds_xxh3", s.clouds_hash,
              "Hash of its clouds in the run's bag, or of its message in the trace.");
   Describe(a, s.counts);
-  a.Optional("certificate", s.certificate, "What is known of its numerical error.");
+  a.Optional("certificate", s.certificate, "What is known of the frame's numerical error.");
 }
 
 void CheckTimes(const std::vector<RecordedScanPose>& poses, const std::string& place) {

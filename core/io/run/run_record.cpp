@@ -38,42 +38,43 @@ bool IsBagOf(const std::string& path, const std::string& format) {
 }  // namespace
 
 void Describe(Archive& a, InputRecord& s) {
-  a.Required("name", s.name, "Of the file.", NonEmptyString());
+  a.Required("name", s.name, "Name of the file.", NonEmptyString());
   a.Required("xxh3", s.hash, "Hash of its bytes.");
-  a.Optional("folder", s.folder, "Of its copy; left out where it is the hash.");
+  a.Optional("folder", s.folder, "Folder of its copy; left out where the hash is its name.");
 }
 
 void Describe(Archive& a, BagRecord& s) {
-  a.Required("path", s.path, "Relative to the directory.");
-  a.Required("topics", s.topics, "Of the clouds.", NonEmptyList());
+  a.Required("path", s.path, "Path of the bag, relative to the directory.");
+  a.Required("topics", s.topics, "Topics of the clouds.", NonEmptyList());
   a.Optional("lines", s.lines, "The file with the bag's hashes.");
 }
 
 void Describe(Archive& a, RunRecord& s) {
-  a.Required("version", s.version, "Of railcast.");
-  a.Required("embree", s.embree, "Its version.");
+  a.Required("version", s.version, "Version of railcast.");
+  a.Required("embree", s.embree, "Version of Embree.");
   a.Required("isa", s.isa, "Instruction set of the tracing.");
-  a.Required("seed", s.seed, "The scenario's.");
+  a.Required("seed", s.seed, "Seed of the scenario.");
   a.Required("inputs", s.inputs, "The files that the scenario names.");
   a.Required("scenario_xxh3", s.scenario_hash, "Hash of scenario.resolved.json.");
   a.Optional("commands_xxh3", s.commands_hash, "Hash of commands.jsonl.");
-  a.Required("format", s.format, "As `--format` says it.");
-  a.Optional("fields", s.fields, "Of the points, as `--fields` says them.");
-  a.Optional("bag", s.bag, "That holds the clouds.");
+  a.Required("format", s.format, "Format of the clouds, as `--format` names it.");
+  a.Optional("fields", s.fields, "Fields of the points, as `--fields` names them.");
+  a.Optional("bag", s.bag, "The bag that holds the clouds.");
   a.Ensure({"bag"}, !s.bag || IsBagOf(s.bag->path, s.format),
            "must be that of a bag of format " + ShownText(s.format));
-  a.Optional("trace", s.trace, "The trace of OSI.");
+  a.Optional("trace", s.trace, "Name of the OSI trace.");
   a.Ensure({"trace"}, s.trace.empty() || IsTraceName(s.trace), "must be the name of an OSI trace");
-  a.Optional("motion_sensors", s.motion_sensors, "Each has a file in motion/.");
+  a.Optional("motion_sensors", s.motion_sensors,
+             "Names of the motion sensors; each has a file in motion/.");
   a.Ensure({"motion_sensors"},
            std::ranges::all_of(
                s.motion_sensors,
                [](const std::string& name) { return IsMotionFile(MotionFileName(name)); }),
            "must be names of files");
   a.Required("start_frame", s.start_frame, "Number of the first frame.");
-  a.Required("num_frames", s.num_frames, "Of the whole run.");
-  a.Optional("stride", s.stride_if_not_1, "From one frame's number to the next; left out where 1.",
-             Limits{.at_least = 1});
+  a.Required("num_frames", s.num_frames, "Number of frames in the whole run.");
+  a.Optional("stride", s.stride_if_not_1,
+             "Step from one frame's number to the next; left out where 1.", Limits{.at_least = 1});
   a.Optional("certify", s.certify, "Share of the time that certificates may take.");
 }
 
@@ -92,11 +93,11 @@ RunRecord ReadRun(const std::string& text, const std::string& place) {
 }
 
 void Describe(Archive& a, ManifestRecord& s) {
-  a.Required("version", s.version, "As in run.json, and so on.");
-  a.Required("seed", s.seed, "");
-  a.Required("format", s.format, "");
-  a.Required("start_frame", s.start_frame, "");
-  a.Required("num_frames", s.num_frames, "");
+  a.Required("version", s.version, "Version of railcast, as in run.json.");
+  a.Required("seed", s.seed, "Seed of the scenario.");
+  a.Required("format", s.format, "Format of the clouds, as `--format` names it.");
+  a.Required("start_frame", s.start_frame, "Number of the first frame.");
+  a.Required("num_frames", s.num_frames, "Number of frames in the whole run.");
   a.Optional("fidelity_choice", s.fidelity_choice, "What fidelity `auto` chose.");
   Describe(a, s.counts);
   a.Optional("certificate", s.certificate, "The run's numerical error.");

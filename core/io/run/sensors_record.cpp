@@ -24,31 +24,31 @@ std::optional<SensorsRecord> ReadSensors(const fs::path& directory) {
 }  // namespace
 
 void Describe(Archive& a, MountRecord& s) {
-  a.Required("translation_m", s.translation_m, "");
+  a.Required("translation_m", s.translation_m, "Position of the sensor in the vehicle's axes.");
   DescribeRotation(a, s.rotation);
 }
 
 void Describe(Archive& a, SensorRecord& s) {
-  a.Required("name", s.name, "");
-  a.Required("folder", s.folder, "Its sequence.", NonEmptyString());
-  a.Required("rate_hz", s.rate_hz, "");
-  a.Required("phase_s", s.phase_s, "");
-  a.Required("start_frame", s.start_frame, "");
-  a.Required("num_frames", s.num_frames, "");
-  a.Optional("stride", s.stride, "");
+  a.Required("name", s.name, "Name of the sensor.");
+  a.Required("folder", s.folder, "Folder of its sequence.", NonEmptyString());
+  a.Required("rate_hz", s.rate_hz, "Number of frames per second.");
+  a.Required("phase_s", s.phase_s, "Delay of its frames, as in the scenario.");
+  a.Required("start_frame", s.start_frame, "Number of its first frame.");
+  a.Required("num_frames", s.num_frames, "Number of its frames.");
+  a.Optional("stride", s.stride, "Step from one frame's number to the next; left out where 1.");
   a.Required("vehicle_from_sensor", s.vehicle_from_sensor, "Its nominal mount.");
   a.Optional("manifest_xxh3", s.manifest_hash, "Hash of its manifest.json.");
 }
 
 void Describe(Archive& a, MergedFolderRecord& s) {
-  a.Required("folder", s.folder, "Of the merged clouds.", NonEmptyString());
+  a.Required("folder", s.folder, "Folder of the merged clouds.", NonEmptyString());
   a.Required("files_xxh3", s.files, "Hashes of merged.jsonl and poses.csv.");
 }
 
 void Describe(Archive& a, SensorsRecord& s) {
-  a.Required("version", s.version, "", Within(1, 1));
-  a.Required("sensors", s.sensors, "In the scenario's order.", NonEmptyList());
-  a.Optional("merged", s.merged, "Left out without --merged.");
+  a.Required("version", s.version, "Version of the file's format.", Within(1, 1));
+  a.Required("sensors", s.sensors, "The sensors, in the scenario's order.", NonEmptyList());
+  a.Optional("merged", s.merged, "The merged clouds; left out without `--merged`.");
 }
 
 bool SensorsRecord::has_hashes() const {
@@ -64,18 +64,19 @@ SensorsRecord ReadSensorsText(const std::string& text, const std::string& place)
 }
 
 void Describe(Archive& a, MergedPartRecord& s) {
-  a.Required("sensor", s.sensor, "");
-  a.Required("frame", s.frame, "");
-  a.Required("later_ns", s.later_ns, "How much later than the first sensor's frame it begins.");
+  a.Required("sensor", s.sensor, "Name of the sensor.");
+  a.Required("frame", s.frame, "Number of the sensor's frame.");
+  a.Required("later_ns", s.later_ns,
+             "How much later this frame begins than the first sensor's frame.");
 }
 
 void Describe(Archive& a, MergedRecord& s) {
-  a.Required("frame", s.frame, "Of the first sensor.");
-  a.Required("stamp_ns", s.stamp_ns, "");
-  a.Required("file", s.file.name, "Relative to the folder.", NonEmptyString());
+  a.Required("frame", s.frame, "Number of the first sensor's frame.");
+  a.Required("stamp_ns", s.stamp_ns, "Simulation time at which that frame begins.");
+  a.Required("file", s.file.name, "Name of the cloud, relative to the folder.", NonEmptyString());
   DescribeContent(a, s.file);
-  a.Required("points", s.points, "");
-  a.Required("parts", s.parts, "The frames that it is made of.");
+  a.Required("points", s.points, "Number of points in the cloud.");
+  a.Required("parts", s.parts, "The frames of which the cloud is made.");
 }
 
 std::vector<fs::path> SensorFoldersIn(const fs::path& directory) {

@@ -66,13 +66,13 @@ bool IsOfCamera(std::string_view name) {
 
 void DescribeContent(Archive& a, KnownFile& s) {
   std::uint64_t bytes = s.bytes.value_or(0);
-  a.Required("bytes", bytes, "Its size.");
+  a.Required("bytes", bytes, "Size of the file.");
   s.bytes = bytes;
-  a.Required("xxh3", s.hash, "Hash of its bytes.");
+  a.Required("xxh3", s.hash, "Hash of the file's bytes.");
 }
 
 void Describe(Archive& a, KnownFile& s) {
-  a.Required("name", s.name, "Relative to the directory.", NonEmptyString());
+  a.Required("name", s.name, "Name of the file, relative to the directory.", NonEmptyString());
   DescribeContent(a, s);
 }
 

@@ -7,25 +7,30 @@
 namespace railcast {
 
 void Describe(Archive& a, LabelsRecord& s) {
-  a.Required("version", s.version, "", Within(1, 1));
-  a.Required("labels", s.labels, "As in a scenario's table of labels.");
+  a.Required("version", s.version, "Version of the file's format.", Within(1, 1));
+  a.Required("labels", s.labels, "The labels, as in a scenario's table of labels.");
 }
 
 void Describe(Archive& a, MaterialRecord& s) {
-  a.Required("id", s.id, "That points have; 0 means none.");
-  a.Required("name", s.name, "");
-  a.Required("reflectivity", s.reflectivity, "");
-  a.Required("reflectivity_1550nm", s.reflectivity_1550nm, "");
-  a.Required("facet_slope_deg", s.facet_slope_deg, "");
-  a.Required("specular_f0", s.specular_f0, "");
-  a.Required("specular_f0_1550nm", s.specular_f0_1550nm, "");
-  a.Required("specular_roughness", s.specular_roughness, "");
-  a.Required("retroreflectance", s.retroreflectance, "");
+  a.Required("id", s.id, "Number of the material in the points; 0 means none.");
+  a.Required("name", s.name, "Name of the material.");
+  a.Required("reflectivity", s.reflectivity,
+             "Diffuse reflectance at 905 nm; 1 = white Lambertian.");
+  a.Required("reflectivity_1550nm", s.reflectivity_1550nm, "Diffuse reflectance at 1550 nm.");
+  a.Required("facet_slope_deg", s.facet_slope_deg,
+             "Oren-Nayar's sigma, the diffuse roughness; 0 = Lambertian.");
+  a.Required("specular_f0", s.specular_f0,
+             "Reflectance of the GGX lobe at normal incidence, 905 nm.");
+  a.Required("specular_f0_1550nm", s.specular_f0_1550nm,
+             "Reflectance of the GGX lobe at normal incidence, 1550 nm.");
+  a.Required("specular_roughness", s.specular_roughness, "Alpha of the GGX lobe.");
+  a.Required("retroreflectance", s.retroreflectance,
+             "Peak of a retroreflector as a multiple of a white Lambertian; 0 = none.");
 }
 
 void Describe(Archive& a, MaterialsRecord& s) {
-  a.Required("version", s.version, "", Within(1, 1));
-  a.Required("materials", s.materials, "As in a scenario's table of materials.");
+  a.Required("version", s.version, "Version of the file's format.", Within(1, 1));
+  a.Required("materials", s.materials, "The materials, as in a scenario's table of materials.");
 }
 
 std::string LabelsJson(const LabelTable& labels) {

@@ -85,7 +85,7 @@ void SchemaWriter::Visit(const Key& key, const ValueRef& value) {
 
 void SchemaWriter::Preset(std::string_view key,
                           std::optional<std::string>& file,
-                          const char* doc,
+                          KeyDoc doc,
                           const FilePreset& preset) {
   Optional(key, file, doc, ExistingFile{});
   given_by_file_ = preset.gives;
@@ -94,7 +94,7 @@ void SchemaWriter::Preset(std::string_view key,
 void SchemaWriter::Alternative(std::string_view key,
                                double& value,
                                const Multiple& multiple,
-                               const char* doc,
+                               KeyDoc doc,
                                const Limits& limits) {
   Add(key, doc, SchemaOf(RefTo(value), limits));
   exclusive_ = {std::string(key), multiple.of_key};
@@ -105,7 +105,7 @@ void SchemaWriter::VisitLibrary(const Key& key, const ValueRef& list) {
   required_.emplace_back(key.name);
 }
 
-void SchemaWriter::Types(std::string_view key, std::vector<ModelSpec>& models, const char* doc) {
+void SchemaWriter::Types(std::string_view key, std::vector<ModelSpec>& models, KeyDoc doc) {
   AddFileOrList({key, doc, NonEmptyList(), false}, RefTo(models));
 }
 
@@ -115,7 +115,7 @@ void SchemaWriter::AddFileOrList(const Key& key, const ValueRef& list) {
 
 void SchemaWriter::Switches(std::string_view key,
                             std::map<std::string, bool>& /*switches*/,
-                            const char* doc,
+                            KeyDoc doc,
                             const std::vector<std::string>& names) {
   SchemaWriter writer;
   for (const std::string& name : names) writer.Add(name, doc, {{"type", "boolean"}});
@@ -157,8 +157,8 @@ Json SchemaWriter::File(const std::string& title) const {
   return schema;
 }
 
-void SchemaWriter::Add(std::string_view key, const char* doc, Json schema) {
-  schema["description"] = doc;
+void SchemaWriter::Add(std::string_view key, KeyDoc doc, Json schema) {
+  schema["description"] = doc.text();
   properties_[std::string(key)] = std::move(schema);
 }
 

@@ -17,17 +17,17 @@ class SchemaWriter final : public Archive {
  public:
   void Preset(std::string_view key,
               std::optional<std::string>& file,
-              const char* doc,
+              KeyDoc doc,
               const FilePreset& preset) override;
   void Alternative(std::string_view key,
                    double& value,
                    const Multiple& multiple,
-                   const char* doc,
+                   KeyDoc doc,
                    const Limits& limits) override;
-  void Types(std::string_view key, std::vector<ModelSpec>& models, const char* doc) override;
+  void Types(std::string_view key, std::vector<ModelSpec>& models, KeyDoc doc) override;
   void Switches(std::string_view key,
                 std::map<std::string, bool>& switches,
-                const char* doc,
+                KeyDoc doc,
                 const std::vector<std::string>& names) override;
 
   /// The schema of an object written in place.
@@ -41,7 +41,7 @@ class SchemaWriter final : public Archive {
  private:
   void Visit(const Key& key, const ValueRef& value) override;
   void VisitLibrary(const Key& key, const ValueRef& list) override;
-  void Add(std::string_view key, const char* doc, Json schema);
+  void Add(std::string_view key, KeyDoc doc, Json schema);
   void AddFileOrList(const Key& key, const ValueRef& list);
   [[nodiscard]] static Json SchemaOf(const ValueRef& value, const RuleRef& rule);
   [[nodiscard]] static Json SchemaOfElement(const ValueType& list);

@@ -93,8 +93,8 @@ void CompareFiles(const fs::path& bag, const BagLines& lines, ErrorList& faults)
 }  // namespace
 
 void Describe(Archive& a, BagLineRecord& s) {
-  a.Optional("messages", s.num_messages, "Of a commit.");
-  a.Optional("xxh3", s.hash, "Hash of these.");
+  a.Optional("messages", s.num_messages, "Number of messages that the line commits.");
+  a.Optional("xxh3", s.hash, "Hash of these messages.");
   a.Optional("files_xxh3", s.files, "Hashes of the bag's files; in the last line alone.");
   a.Optional("tables_xxh3", s.tables,
              "Hash of what a database holds beside its messages; in the last line alone.");
