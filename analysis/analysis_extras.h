@@ -18,7 +18,7 @@ struct MeasuredSource {
   /// What reports call a source whose recordings they do not list, such as "shard 1/3 of a data
   /// set"; else empty.
   std::string kind{};
-  std::string data_hash{};  ///< Of a data set that is no shard.
+  std::string data_hash{};  ///< Hash of the data; empty for a shard.
   /// Makes the section of a data set that is no shard; else empty.
   /// @param suffix Follows the keys of section, charts and tables.
   std::function<Section(const std::string& suffix)> section{};

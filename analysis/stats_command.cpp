@@ -216,7 +216,7 @@ Section SheetSection(const std::vector<MeasuredSource>& sources) {
 int RunStats(const StatsOptions& options, const std::string& command_line) {
   CheckReportFolder(options.output.out, {"stats.json"});
   const tbb::global_control limit = LimitThreads(options.num_threads);
-  // Of captures, a sensor is chosen by its address, of sequences by its name.
+  // A sensor is chosen by its address in captures, and by its name in sequences.
   SourceChoice choice = options.choice;
   if (ParseSender(options.sensor)) choice.sensor = options.sensor;
   const auto chosen = WithChoice(options.sources, choice);

@@ -18,7 +18,7 @@ struct OwnProgram {
   const char* command;
   const char* description;
   const char* program;  ///< Stands beside railcast-generate.
-  const char* extra;    ///< That has the command.
+  const char* extra;    ///< The extra that has the command.
 };
 
 /// All of them, whether or not they are there.

@@ -295,7 +295,7 @@ void UseRaw(const RawOptions& raw, const ProgramOptions& app, ViewOptions& optio
   }
 }
 
-/// Of a live camera only the colours are sent, and they go to a port of their own.
+/// Only the colours of a live camera are sent, and they go to a port of their own.
 void CheckLiveImage(const ViewOptions& options) {
   const PictureKind kind = options.choices.picture.value_or(PictureKind::kOff);
   if (!options.is_live() || kind == PictureKind::kOff) return;

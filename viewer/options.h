@@ -19,7 +19,7 @@ namespace railcast {
 struct ViewOptions {
   std::filesystem::path source;
   std::filesystem::path compare;  ///< Empty: nothing is compared.
-  SourceChoice choice;            ///< Of sources that do not say it themselves.
+  SourceChoice choice;            ///< For sources that do not say it themselves.
   std::filesystem::path scenario;
   /// Name of a sensor of the scenario, or address of one of a capture.
   std::optional<std::string> sensor;

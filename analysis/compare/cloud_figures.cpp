@@ -24,7 +24,7 @@ double Bits(double share) {
 // Points beyond this, as a faulty foreign file may hold, share the last bin.
 constexpr float kFarthest_m = 1e6F;
 
-/// Of metres, or of metres per second.
+/// The whole number of metres, or of metres per second, at or below the value.
 std::int64_t CellOf(float value) {
   return static_cast<std::int64_t>(std::floor(std::clamp(value, -kFarthest_m, kFarthest_m)));
 }

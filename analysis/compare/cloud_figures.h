@@ -126,7 +126,7 @@ struct CloudDistances {
                                                         const ComparedCloud& b,
                                                         const std::vector<double>& distances_m);
 
-/// As above, but with search trees that already exist.
+/// The overload for search trees that already exist.
 /// @pre Both clouds have points.
 [[nodiscard]] CloudDistances DistancesOf(const NearestPoints& a_in_b,
                                          const NearestPoints& b_in_a,

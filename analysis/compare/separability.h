@@ -45,12 +45,12 @@ inline constexpr std::array<PatchFeature, kNumPatchFeatures> kPatchFeatures = {{
 /// Edge of the cubes into which a cloud is cut: some contain a person or a stretch of one rail.
 inline constexpr double kPatchEdge_m = 2.0;
 inline constexpr std::size_t kMinPatchPoints = 20;
-/// Of a frame with more patches, this many are taken, evenly spread.
+/// If a frame has more patches, this many of them are taken, evenly spread.
 inline constexpr std::size_t kMaxPatchesAFrame = 400;
 
 /// The points of a frame in a cube of kPatchEdge_m along the axes of its points.
 struct Patch {
-  float range_m{};  ///< Of the points' mean. Not a feature.
+  float range_m{};  ///< Range of the points' mean. Not a feature.
   /// In the order of kPatchFeatures; NaN where the frame or the patch lacks what it takes.
   std::array<float, kNumPatchFeatures> features{};
 };
@@ -85,19 +85,19 @@ struct Separability {
   /// Area under the curve: the probability that a patch of B looks more like B than one of A does.
   Estimate area;
   Estimate balanced_accuracy;
-  /// Of a classifier that does not see intensities. "Not enough" if there are none, too.
+  /// For a classifier that sees no intensities. "Not enough" if there are none, too.
   Estimate shape_area;
   std::array<Estimate, kNumDistanceBins> area_by_range;
 
   struct Feature {
     std::size_t index{};  ///< In kPatchFeatures.
     Estimate lost_area;   ///< Without the feature, its importance.
-    /// Of the feature alone, without a classifier: the probability that it is greater in a patch of
-    /// B than in one of A.
+    /// How well the feature alone separates, without a classifier: the probability that it is
+    /// greater in a patch of B than in one of A.
     double own_area{};
     Estimate median_a, median_b;
   };
-  std::vector<Feature> features;  ///< Those that both clouds have; the most important first.
+  std::vector<Feature> features;  ///< The features that both clouds have; the most important first.
 
   [[nodiscard]] bool is_enough() const { return area.is_enough(); }
 };

@@ -21,7 +21,7 @@ constexpr double kLeastSlope = 0.01;
 constexpr double kGreatestSlope = 1e4;
 // How far beyond the targets' ranges a curve's middle may lie, as a factor.
 constexpr double kBeyond = 1e3;
-// Of parameters: logarithms and shares.
+// Accuracy of the parameters, which are logarithms and shares.
 constexpr double kAccuracy = 1e-9;
 
 /// The half of a chi-squared quantile of one degree of freedom by which a log-likelihood falls at

@@ -139,7 +139,7 @@ Estimate RobustScale(std::vector<double>& samples) {
 Estimate RobustScale(const RoundedSamples& samples, RoundedValues rounded) {
   const auto num = static_cast<std::uint64_t>(samples.num);
   if (num < kMinSamples) return NotEnough(num);
-  constexpr double kCoarse = 0.5;  // Of the spread: coarser steps shape the law of the samples.
+  constexpr double kCoarse = 0.5;  // Share of the spread: coarser steps shape the samples' law.
   const double spread = SpreadInSteps(samples);
   if (kCoarse * spread > 1.0) {
     const double off_steps =
@@ -168,7 +168,7 @@ ToleranceLimits LimitsExceededBy90Percent(std::vector<double> values) {
   const boost::math::binomial below(static_cast<double>(values.size()), kShareBelow);
   ToleranceLimits limits;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    // That at most i values lie below the one that is sought.
+    // The probability that at most i values lie below the one that is sought.
     const double probability = boost::math::cdf(below, static_cast<double>(i));
     if (probability <= kRisk) limits.low = values[i];
     if (probability >= 1.0 - kRisk) {

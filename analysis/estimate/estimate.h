@@ -58,14 +58,14 @@ struct Estimate {
 /// Biometrika 28); not enough below kMinSamples and without exposure.
 [[nodiscard]] Estimate PoissonRate(std::uint64_t count, double exposure);
 
-/// As above for any number of counts, none included: the interval is exact. Not enough without
+/// As PoissonRate() for any number of counts, even none: the interval is exact. Not enough without
 /// exposure only.
 [[nodiscard]] Estimate ExactPoissonRate(std::uint64_t count, double exposure);
 
 /// Number of standard errors that a two-sided 95 % interval of a normal quantity reaches to each
 /// side.
 [[nodiscard]] double NormalQuantile();
-/// As above, for a quantity whose error was estimated with so many degrees of freedom.
+/// As NormalQuantile() for a quantity whose error was estimated with so many degrees of freedom.
 [[nodiscard]] double StudentQuantile(double degrees);
 /// The quantile of chi-squared below which this share lies.
 [[nodiscard]] double ChiSquared(double degrees, double share);

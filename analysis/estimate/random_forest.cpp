@@ -23,7 +23,7 @@ constexpr std::size_t kLeastInLeaf = 5;
 
 // The samples with each feature replaced by the bin between two of its quantiles.
 struct BinnedSamples {
-  std::vector<std::vector<double>> edges;       // Of each feature, rising.
+  std::vector<std::vector<double>> edges;       // For each feature, rising.
   std::vector<std::vector<std::uint8_t>> bins;  // By feature, then sample.
   const std::vector<bool>& is_second;
 };

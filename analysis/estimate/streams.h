@@ -47,7 +47,7 @@ class LogHistogram {
   [[nodiscard]] Estimate Median() const { return Quantile(0.5); }
   /// See RobustScale() in estimate.h.
   [[nodiscard]] Estimate RobustScale() const;
-  /// Of samples that came in steps; without a step as above.
+  /// The overload for samples that came in steps; if they did not, it is as RobustScale().
   [[nodiscard]] Estimate RobustScale(double step, RoundedValues rounded) const;
 
  private:

@@ -63,7 +63,7 @@ Estimate MeanOverFolds(const Moments& of_folds) {
   return mean;
 }
 
-// Of some members, with their scores.
+// The area under the curve of some members with their scores.
 double AreaOf(const TwoSamples& samples,
               const std::vector<Eigen::Index>& members,
               const std::vector<double>& scores) {

@@ -35,7 +35,7 @@ class RandomForest {
     int feature = -1;       ///< -1: a leaf.
     double threshold{};     ///< Rows that are not above it go to `child`, others to the next.
     std::uint32_t child{};  ///< Index of the first of the two children.
-    double second_share{};  ///< Of a leaf.
+    double second_share{};  ///< In a leaf, the share of the second class.
   };
   using Tree = std::vector<Node>;  ///< The root first.
 

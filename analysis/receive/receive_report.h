@@ -42,10 +42,10 @@ struct ReceivedTotals {
   std::uint64_t points{};
   double first_s{};  ///< Arrival times of the first and the last frame.
   double last_s{};
-  std::optional<std::int64_t> last_arrival_ns;  ///< Of the last frame.
+  std::optional<std::int64_t> last_arrival_ns;  ///< When the last frame arrived.
   DurationHistogram between;     ///< From the arrival of each frame to that of the next.
   DurationHistogram latency;     ///< LatencyOf() the frames that have one, 0 if it is below that.
-  std::uint64_t frames_ahead{};  ///< Of which LatencyOf() is below 0.
+  std::uint64_t frames_ahead{};  ///< Frames whose LatencyOf() is below 0.
 
   /// Adds what is known of a frame, but for `first_s` and `last_s`.
   void Add(const ReceivedFrame& frame);

@@ -32,7 +32,7 @@ constexpr const char* kPngTerminal =
 bool HasLongCategories(const Chart& chart) {
   const std::vector<std::string>& names = chart.x.categories;
   if (names.size() > kMaxLyingCategories) return false;
-  std::size_t most_letters = 0;  // Of two neighbours.
+  std::size_t most_letters = 0;  // Letters of two neighbours.
   for (std::size_t i = 1; i < names.size(); ++i) {
     most_letters = std::max(most_letters, names[i - 1].size() + names[i].size() + 4);
   }

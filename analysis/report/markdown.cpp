@@ -40,7 +40,7 @@ std::string MarkdownTable(const Table& table) {
                  table.note.empty() ? "" : "\n\n", GridText(table)});
 }
 
-// Of a chart or a picture.
+// The text of a chart or a picture.
 template <typename Drawing>
 std::string DrawingText(const Drawing& drawing, const std::string& caption) {
   return Joined({"\n![", EscapedText(drawing.title), "](charts/", drawing.key, ".png)\n\n",

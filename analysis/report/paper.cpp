@@ -16,8 +16,8 @@ constexpr std::size_t kLongWord = 24;
 constexpr std::size_t kWordsWidth = 36;
 // Gap between two cells in letters.
 constexpr std::size_t kCellGap = 2;
-// In lines of a table: a page of A4 has about 58. Two of the ten pages are for what breaks leave
-// empty.
+// In lines of a table: a page of A4 has about 58. Two of the ten pages are reserved for the gaps
+// that page breaks leave.
 constexpr std::size_t kPageLines = 58;
 constexpr std::size_t kReportLines = 8 * kPageLines;
 constexpr std::size_t kMaxTableLines = kPageLines;
@@ -25,7 +25,7 @@ constexpr std::size_t kHeadLines = 15;
 constexpr std::size_t kSectionLines = 5;
 constexpr std::size_t kChartLines = 17;  // Two stand side by side.
 constexpr std::size_t kPictureLines = 20;
-constexpr std::size_t kLeftLines = 2;  // Of a table that is left to its file.
+constexpr std::size_t kLeftLines = 2;  // What is left of a table that goes to its file.
 
 std::size_t LongestWord(const std::string& text) {
   std::size_t longest = 0, word = 0;

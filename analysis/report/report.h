@@ -136,7 +136,7 @@ struct Report {
   std::string command{};  ///< Command line that made it, for a reader to repeat.
   std::vector<std::pair<std::string, std::string>>
       facts{};                    ///< Input, frames, sensor, version, ...
-  std::vector<Remark> remarks{};  ///< Of the readers of its sources, which facts tell, too.
+  std::vector<Remark> remarks{};  ///< Remarks of the readers of its sources, which facts tell, too.
   std::vector<Headline> headlines{};
   std::vector<Section> sections{};
 };

@@ -15,7 +15,7 @@ std::uint64_t TotalOf(const RangeCounts& counts) {
   return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
 }
 
-// Of the labels with most points; more lines would hide each other.
+// A chart of the labels with most points; more lines would hide each other.
 Chart SharesChart(const Table& shares) {
   constexpr std::size_t kMostLabels = 7;
   Chart chart = ChartOf(kStatsWords, "shares_by_label_and_range");

@@ -103,7 +103,7 @@ std::size_t GradeOf(DifficultyScale scale, const RecordedObject& object, double 
       kPointLimits, [&](std::uint32_t most) { return object.points <= most; }));
 }
 
-// Of all labels together.
+// The counts of all labels together.
 Difficulty::Counts Total(const std::map<std::string, Difficulty::Counts>& by_label) {
   Difficulty::Counts total{};
   for (const auto& [label, counts] : by_label) AddTo(total, counts);

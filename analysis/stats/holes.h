@@ -38,7 +38,7 @@ class SmoothHoles {
 
   struct Count {
     HoleCount firings;
-    double sum_intensity{};  ///< Of the firings' neighbours.
+    double sum_intensity{};  ///< Over the firings' neighbours.
 
     [[nodiscard]] double MeanIntensity() const {
       return sum_intensity / static_cast<double>(firings.num_expected);

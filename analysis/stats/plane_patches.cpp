@@ -88,7 +88,7 @@ std::optional<Plane> AgreedPlane(const Points& points, double range_m) {
   return plane;
 }
 
-// Of a normal and an axis, neither of which has a sign.
+// The angle between a normal and an axis, neither of which has a sign.
 double AngleBetween_rad(const Vector3& normal, const Vector3& other) {
   return std::atan2(normal.cross(other).norm(), std::abs(normal.dot(other)));
 }
@@ -144,7 +144,7 @@ PclPlane PclPlaneOf(const Points& points, const Plane& ours) {
 // part.
 Points WithoutOutliers(const Points& points, const Plane& plane, double step_m) {
   constexpr double kMostDeviations = 5.0;
-  constexpr double kPrecision_m = 1e-5;  // Of float32 coordinates at 100 m.
+  constexpr double kPrecision_m = 1e-5;  // Precision of float32 coordinates at 100 m.
   const double least_m = std::max(kPrecision_m, step_m / std::sqrt(12.0));
   std::vector<double> distances_m;
   const auto distance_m = [&](const PatchPoint& point) {

@@ -34,7 +34,7 @@ struct PlanePatch {
   /// the beams, and perpendicular to the plane.
   double range_squares_m2{};
   double plane_squares_m2{};
-  PclPlane by_pcl;  ///< Of FindPlanePatches() alone: it takes longer than all else.
+  PclPlane by_pcl;  ///< Only from FindPlanePatches(): it takes longer than all else.
 
   [[nodiscard]] double degrees() const { return static_cast<double>(num_points) - 3.0; }
 };
@@ -45,7 +45,7 @@ struct FlatPiece {
   Vector3 middle_m = Vector3::Zero();    ///< Mean of its points; lies in the plane.
   Vector3 normal = Vector3::UnitZ();     ///< Unit vector of either sign.
   std::vector<std::size_t> slots;        ///< Slots of its points, without outliers.
-  std::vector<std::size_t> slots_about;  ///< Of all points among which it was found.
+  std::vector<std::size_t> slots_about;  ///< Slots of all points among which it was found.
 };
 
 /// Maximum per frame, so that the time does not grow with the number of points.
@@ -61,7 +61,7 @@ inline constexpr std::size_t kMaxPatches = 150;
 /// @param scan Null if the frame is no grid.
 [[nodiscard]] std::vector<FlatPiece> FindFlatPieces(const RecordedFrame& recorded,
                                                     const ScanTable* scan);
-/// As above, without the pieces' slots, and with what PCL makes of each.
+/// As FindFlatPieces(), without the pieces' slots, and with what PCL makes of each.
 [[nodiscard]] std::vector<PlanePatch> FindPlanePatches(const RecordedFrame& recorded,
                                                        const ScanTable* scan);
 

@@ -35,7 +35,7 @@ class Noise {
     /// Standard deviations of the patches, each corrected for its few degrees of freedom.
     LogHistogram range_sigmas_m;
     LogHistogram plane_sigmas_m;
-    /// Of the same patches by PCL's own estimators (PclPlane).
+    /// Spreads in the same patches by PCL's own estimators (PclPlane).
     LogHistogram pcl_sigmas_m, pcl_turns_rad, pcl_normals_rad;
     std::uint64_t num_pcl_outliers{};
     Moments step_m;  ///< RangeStep_m() of the frames that have one.
@@ -93,7 +93,7 @@ class TemporalNoise {
   /// Differences in one bin of range.
   struct Bin {
     Scatter differences_m;
-    Moments step_m;  ///< Of the ranges, by the changes of the pairs that show it.
+    Moments step_m;  ///< Steps of the ranges, by the changes of the pairs that show it.
 
     static auto Sums(auto& of) { return std::tie(of.differences_m, of.step_m); }
     [[nodiscard]] Estimate Sigma_m() const;

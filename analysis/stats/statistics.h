@@ -220,7 +220,7 @@ class ObjectPoints {
   };
   struct Object {
     std::string label;
-    std::map<std::size_t, Bin> bins;  ///< Of RangeBins(), by the distance of the box's middle.
+    std::map<std::size_t, Bin> bins;  ///< By RangeBins(), with the distance of the box's middle.
 
     void Add(const Object& other) {
       label = other.label;

@@ -62,7 +62,7 @@ class Recent {
 
   std::size_t most_;
   std::mutex mutex_;
-  std::list<Entry> entries_;  // That used last first.
+  std::list<Entry> entries_;  // The entry that was used last comes first.
   std::size_t weight_ = 0;
 };
 

@@ -34,7 +34,7 @@ double HalfSquareAbove(double x, double sigma) {
   return 0.5 * ((x * x + sigma * sigma) * Below(z) + x * sigma * DensityAt(z));
 }
 
-/// That a sample is counted at so many steps from its mean.
+/// The probability that a sample is counted at so many steps from its mean.
 /// @param sigma In steps.
 /// @param on_steps The share of the first law of the header.
 double ChanceOf(double steps, double sigma, double on_steps) {

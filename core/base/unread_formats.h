@@ -12,8 +12,8 @@ namespace railcast {
 /// is not read: ...". Empty if the file is of no such format, or cannot be opened.
 [[nodiscard]] std::string AdviceOnFile(const std::filesystem::path& file);
 
-/// As above, for a type of messages: "is compressed: ...".
-/// @param encoding Of the messages: "cdr", "ros1", "protobuf", ...
+/// What a type of messages is, and how to convert it: "is compressed: ...".
+/// @param encoding The messages' encoding: "cdr", "ros1", "protobuf", ...
 [[nodiscard]] std::string_view AdviceOnType(std::string_view type, std::string_view encoding);
 
 }  // namespace railcast

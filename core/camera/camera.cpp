@@ -102,7 +102,7 @@ BeamShape ShapeOfPixels(const Shot& shot, const Pixel& corner) {
           .sigma_vertical_rad = 0.5 * (seen_at(0.0, 0.5) - seen_at(0.0, -0.5)).norm()};
 }
 
-// Of unit length, on the camera's side.
+// The normal, of unit length, on the camera's side.
 Eigen::Vector3f NormalAt(const RayTile& rays, std::size_t ray) {
   const Eigen::Vector3f normal =
       VectorAt(rays.normal_x, rays.normal_y, rays.normal_z, ray).normalized();

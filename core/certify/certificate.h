@@ -58,7 +58,7 @@ struct DrawnFiring {
   std::uint32_t cell{};     ///< row * columns + column.
   std::uint32_t stratum{};  ///< Index into FrameCertificate::strata.
   std::vector<CertifiedEcho> echoes{};
-  std::vector<VerdictCounts> rungs{};  ///< Of the rungs beside the run's own, in their order.
+  std::vector<VerdictCounts> rungs{};  ///< For the rungs beside the run's own, in their order.
 
   bool operator==(const DrawnFiring&) const = default;
 };

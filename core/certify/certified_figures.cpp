@@ -78,7 +78,7 @@ double RoundedUp(double value) {
 // interval narrows with the root of the number of firings.
 std::string WhatWouldTell(const RunCertificate& certificate) {
   constexpr double kWanted = 0.05;         // Half an interval.
-  constexpr double kEchoesWanted = 400.0;  // Of which an unknown share is known as well.
+  constexpr double kEchoesWanted = 400.0;  // With so many, an unknown share is known as well.
   if (!(certificate.cost_share > 0.0) || certificate.firings == 0) return "";
   const auto& missed = certificate.all.missed;
   const double half = missed ? 0.5 * (missed->high.value_or(1.0) - missed->low) : 1.0;

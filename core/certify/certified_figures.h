@@ -26,7 +26,7 @@ struct CertifiedPart {
   static constexpr std::uint64_t kLeastInRow = 30;
 
   std::string name;                              ///< "all", a class, a range bin, an object.
-  std::uint64_t echoes{};                        ///< Those of the reference that were drawn.
+  std::uint64_t echoes{};                        ///< Echoes of the reference that were drawn.
   std::optional<CertifiedFigure> missed{};       ///< Share of the reference's echoes.
   std::optional<CertifiedFigure> wrong{};        ///< False ones: share of the run's echoes.
   std::optional<CertifiedFigure> other_label{};  ///< Share of the found ones.
@@ -64,11 +64,11 @@ struct RunCertificate {
   /// Share of the firings in strata of which none was drawn.
   double without_drawn{};
   CertifiedPart all{};
-  std::vector<CertifiedPart> classes{};  ///< Those with drawn echoes; likewise below.
+  std::vector<CertifiedPart> classes{};  ///< Classes with drawn echoes; likewise below.
   std::vector<CertifiedPart> ranges{};
   std::vector<CertifiedPart> objects{};
   std::vector<CertifiedRung> rungs{};
-  std::optional<CertifiedTolerance> tolerance{};  ///< Of fidelity `auto`.
+  std::optional<CertifiedTolerance> tolerance{};  ///< Only with fidelity `auto`.
 };
 void Describe(Archive& a, RunCertificate& s);
 
@@ -78,7 +78,7 @@ struct CertifySpec {
   std::vector<RungBeside> rungs{};
   std::map<std::uint32_t, std::string> objects{};  ///< Names by instance.
   std::optional<ToleranceSpec> tolerance{};
-  std::vector<std::uint32_t> tolerance_labels{};  ///< Of ToleranceSpec::of.
+  std::vector<std::uint32_t> tolerance_labels{};  ///< The labels of ToleranceSpec::of.
 };
 
 /// Adds up the certificates of a run's frames. They are kept, since figures need them all: some 100

@@ -134,7 +134,7 @@ class CellDraws {
   [[nodiscard]] Draw Next() {
     const auto words = RandomWords(seed_, RandomUse::kCertificate, frame_, num_++);
     const double u = (static_cast<double>(words[0]) + 0.5) * 0x1p-32;
-    // Of probability 1, log_not_ is minus infinity, and the distance 0.
+    // With probability 1, log_not_ is minus infinity, and the distance 0.
     cell_ += 1.0 + std::floor(std::log(u) / log_not_);
     return {cell_, static_cast<double>(words[1]) * 0x1p-32};
   }

@@ -19,7 +19,7 @@ namespace railcast {
 
 /// What of a frame is certified.
 struct CertifiedRegion {
-  std::vector<std::uint32_t> cells{};  ///< Those of the firings, ascending: others are left out.
+  std::vector<std::uint32_t> cells{};  ///< The firings' cells, ascending: others are left out.
   /// Only echoes of these objects are counted; of all things if it is empty.
   std::set<std::uint32_t> instances{};
   /// About how many firings are drawn; absent: as many as the share of the time is enough for if
@@ -46,8 +46,8 @@ class Certifier {
   /// @param simulator With the effects that its frames are made with.
   /// @throws InputError if these are those of rung `reference`.
   Certifier(const ScenarioSpec& scenario, double cost_share, Simulator& simulator);
-  /// As above, for firings that something else than a simulator makes.
-  /// @param num_firings Of a frame.
+  /// The overload for firings that no simulator makes.
+  /// @param num_firings In a frame.
   Certifier(const ScenarioSpec& scenario,
             double cost_share,
             const DetectorSpec& own,
@@ -67,14 +67,14 @@ class Certifier {
   /// Makes firings in each of variants(), as Simulator::ScanFirings().
   using ScanFirings =
       std::function<void(std::span<const std::uint32_t> cells, std::span<Frame> frames)>;
-  /// As above.
+  /// The overload for firings that `scan` makes.
   [[nodiscard]] FrameCertificate Certify(const Frame& frame,
                                          const CertifiedRegion* region,
                                          const ScanFirings& scan) const;
 
   /// The reference, the run's own way, and those of rungs().
   [[nodiscard]] const std::vector<FiringVariant>& variants() const { return variants_; }
-  /// Those beside the run's own, whose errors are found on the same firings.
+  /// The rungs beside the run's own, whose errors are found on the same firings.
   [[nodiscard]] const std::vector<RungBeside>& rungs() const { return rungs_; }
   /// About how many firings of a frame are drawn.
   [[nodiscard]] double num_expected() const { return num_expected_; }
@@ -85,8 +85,8 @@ class Certifier {
 
   std::uint64_t seed_;
   float match_distance_m_;
-  std::set<std::uint32_t> vague_labels_;   ///< Of plants, wires and nets.
-  std::set<std::uint32_t> object_labels_;  ///< Of the world's objects.
+  std::set<std::uint32_t> vague_labels_;   ///< Labels of plants, wires and nets.
+  std::set<std::uint32_t> object_labels_;  ///< Labels of the world's objects.
   std::vector<RungBeside> rungs_;
   std::vector<FiringVariant> variants_;
   double num_expected_{};

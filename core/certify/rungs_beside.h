@@ -24,8 +24,8 @@ struct RungBeside {
 /// of InstructionsOf(). Rung `reference` takes what its sub-rays take.
 [[nodiscard]] double InstructionsPerFiring(const EffectSet& effects, const BeamSpec& beam);
 
-/// Of the rungs that take less time than the run's own effects the dearest one, and of those that
-/// take more the cheapest one but `reference`: none, one or two.
+/// The dearest rung that takes less time than the run's own effects, and the cheapest one that
+/// takes more, except `reference`: none, one or two.
 [[nodiscard]] std::vector<RungBeside> RungsBeside(const ScenarioSpec& scenario,
                                                   const DetectorSpec& own);
 

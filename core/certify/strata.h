@@ -12,7 +12,7 @@ namespace railcast {
 
 /// Firings of a frame that are alike by its own result, so that a few of them tell of all.
 struct Stratum {
-  std::uint32_t label{};      ///< Of what the beam meets first; 0 = nothing.
+  std::uint32_t label{};      ///< Label of what the beam meets first; 0 = nothing.
   std::uint32_t range_bin{};  ///< By the range of that: up to 25, 50, 100 and 200 m, and beyond.
   bool is_edge{};  ///< Whether the beam is next to another thing, or shares itself with one.
   bool has_return{};

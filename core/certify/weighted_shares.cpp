@@ -11,7 +11,7 @@
 namespace railcast {
 namespace {
 
-constexpr double kNormalQuantile = 1.959963984540054;  // Of 97.5 %.
+constexpr double kNormalQuantile = 1.959963984540054;  // For 97.5 %.
 
 // The regularised incomplete beta function I_x(a, b), by its continued fraction (DLMF 8.17.22) in
 // Lentz's way.
@@ -164,9 +164,9 @@ double WeightedShares::EffectiveNumber(double share,
                                        const std::vector<double>& among) const {
   const std::vector<Group> groups = Groups();
   const std::vector<double> weights = Weights(groups);
-  // Of items that are all alike, the scatter of the weights is what makes them count for fewer.
-  // Strata are not trusted to narrow the interval beyond that: where few items are wrong, those in
-  // which none was drawn seem to have no scatter at all.
+  // If all items are alike, the scatter of the weights is what makes them count for fewer. Strata
+  // are not trusted to narrow the interval beyond that: where few items are wrong, those in which
+  // none was drawn seem to have no scatter at all.
   double total = 0.0;
   double squares = 0.0;
   std::vector<double> residuals(of.size());

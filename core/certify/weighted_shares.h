@@ -54,10 +54,10 @@ class WeightedShares {
   /// strata stand for them.
   [[nodiscard]] double share_without_drawn() const;
 
-  /// Of all firings, the sum of one number over the sum of another, for numbers that are at least 0
-  /// and of which the first is not the larger one: the share of echoes that are missed, say. The
-  /// interval is Clopper and Pearson's at the effective number of the second (Korn and Graubard
-  /// 1998, Survey Methodology 24): at least as long as it must be. Absent if the second is 0.
+  /// The sum of one number over all firings, divided by another's. Both are at least 0, and the
+  /// first is not the larger one: the share of echoes that are missed, say. The interval is Clopper
+  /// and Pearson's at the effective number of the second (Korn and Graubard 1998, Survey
+  /// Methodology 24): at least as long as it must be. Absent if the second is 0.
   /// @param of, among By drawn firing.
   [[nodiscard]] std::optional<CertifiedFigure> Share(const std::vector<double>& of,
                                                      const std::vector<double>& among) const;
@@ -73,7 +73,7 @@ class WeightedShares {
  private:
   struct Population {
     std::uint64_t num{};
-    double probability{};  ///< Of those that were added last.
+    double probability{};  ///< Probability of the firings that were added last.
   };
   struct Group {
     std::uint64_t num_firings{};

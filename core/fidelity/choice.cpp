@@ -137,7 +137,7 @@ SimulatorSpec WithWidthOf(const FidelityChoice& choice,
   return spec;
 }
 
-// Of the classes only those of objects: the task is not about grass.
+// Only the classes of objects: the task is not about grass.
 ComparisonSpec ComparisonOf(const ScenarioSpec& scenario, const World& world) {
   ComparisonSpec spec = MakeComparisonSpec(scenario.lidar.beam, scenario.lidar.range_max_m,
                                            LabelTable(scenario.labels), world.objects());

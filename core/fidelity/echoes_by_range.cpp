@@ -124,7 +124,7 @@ RelativeChange ChangeOfHeights(const std::vector<Sums>& from, const std::vector<
     return TotalOf(sums, &Sums::square_height_m2) / TotalOf(sums, &Sums::num_surveyed) -
            mean_m(sums) * mean_m(sums);
   };
-  // Of half the logarithm of the variance, as far as one frame makes it.
+  // What one frame adds to half the logarithm of the variance.
   const auto deviation = [&](const std::vector<Sums>& sums, std::size_t i) {
     const Sums& frame = sums[i];
     const double squares_m2 = frame.square_height_m2 - 2.0 * mean_m(sums) * frame.height_m +

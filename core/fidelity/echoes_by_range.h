@@ -29,7 +29,7 @@ class EchoesByRange {
   struct Sums {
     double first{};             ///< Nearest echoes of their firings.
     double further{};           ///< All others.
-    double intensity{};         ///< Of the first ones.
+    double intensity{};         ///< Sum over the first ones.
     double num_surveyed{};      ///< First ones that have a height: their number,
     double height_m{};          ///< sum,
     double square_height_m2{};  ///< and sum of squares.

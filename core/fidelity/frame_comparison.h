@@ -33,7 +33,7 @@ struct ComparisonSpec {
   std::vector<std::uint32_t> person_labels{};
   std::vector<std::uint32_t> pole_labels{};  ///< Labels of poles, masts and signals.
   std::vector<ScenePart> parts{};            ///< FrameDifference::parts.
-  std::vector<std::uint32_t> labels{};       ///< Of the echoes that are compared; empty = of all.
+  std::vector<std::uint32_t> labels{};  ///< Labels of the echoes that are compared; empty = all.
 };
 
 /// Makes the spec of a comparison. The match distance is half of the pulse's length in range,

@@ -28,7 +28,7 @@ struct Datagrams {
     DatagramPort port{};
     /// Simulation time of the last firing in the datagram; a real sensor could not send it earlier.
     std::int64_t due_ns{};
-    /// Of a message for ROS 2, which takes the place of a datagram; of a recorded datagram, the
+    /// For a message for ROS 2, what takes the place of a datagram; for a recorded datagram, the
     /// port that it was sent to.
     std::uint16_t topic{};
   };

@@ -47,7 +47,7 @@ struct OpenLabelPlace {
 /// A pose or a `transform_data`: a matrix, or a quaternion and a translation.
 [[nodiscard]] Transform OpenLabelTransform(const Json& json, const OpenLabelPlace& place);
 
-/// Of seven numbers or more: position, then quaternion (x, y, z, w).
+/// The pose that seven numbers or more say: position, then quaternion (x, y, z, w).
 [[nodiscard]] Transform OpenLabelPose(const std::vector<double>& numbers,
                                       const OpenLabelPlace& place);
 

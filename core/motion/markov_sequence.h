@@ -6,7 +6,7 @@ namespace railcast {
 
 /// One random sequence among those of a sensor.
 struct SequenceKey {
-  std::uint64_t seed{};       ///< Of the sensor.
+  std::uint64_t seed{};       ///< The sensor's seed.
   std::uint32_t component{};  ///< Which of its sequences.
 };
 

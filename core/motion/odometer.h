@@ -19,8 +19,8 @@ class TrackOdometry {
     double speed_mps{};
     /// Work done on the vehicle since time 0, per mass: the gain in kinetic and potential energy.
     double work_m2_per_s2{};
-    double speeding_up_m{};   ///< Of the distance: with rising speed.
-    double slowing_down_m{};  ///< Of the distance: with falling speed.
+    double speeding_up_m{};   ///< Distance with rising speed.
+    double slowing_down_m{};  ///< Distance with falling speed.
   };
   /// @param world This world or one that WithVehicleSpeed() made of it.
   [[nodiscard]] State At(const RailWorld& world, std::int64_t time_ns) const;

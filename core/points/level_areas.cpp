@@ -15,7 +15,7 @@ namespace {
 constexpr double kCell_m = 0.5;
 constexpr double kFarthest_m = 25.0;
 constexpr double kNear_m = 0.1;      // From a plane.
-constexpr double kApart_m = 0.25;    // Of planes, at the sensor.
+constexpr double kApart_m = 0.25;    // Between planes, at the sensor.
 constexpr double kMostSlope = 0.17;  // The tangent of 10 degrees.
 // The tangent of 2 degrees. A ring that is less steep meets walls at about one height, as if they
 // were level.

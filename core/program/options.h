@@ -30,7 +30,7 @@ class Option {
   Option Required() const;
   Option Needs(Option other) const;
   Option Excludes(Option other) const;
-  Option NumValues(int number) const;  ///< Of one occurrence.
+  Option NumValues(int number) const;  ///< Number of values of one occurrence.
   Option NumValues(int at_least, int at_most) const;
   Option SeparatedBy(char delimiter) const;  ///< Its values may be one word.
   Option MayRepeat() const;                  ///< The values of all occurrences are taken.
@@ -86,7 +86,7 @@ class ProgramOptions {
   void Footer(const std::string& text);     ///< The last lines of `--help`.
 
   [[nodiscard]] bool is_given(const std::string& name) const;
-  [[nodiscard]] std::string TextOf(const std::string& name) const;  ///< Of an option that is given.
+  [[nodiscard]] std::string TextOf(const std::string& name) const;  ///< Text of a given option.
   [[nodiscard]] std::vector<Option> options() const;
   [[nodiscard]] std::vector<std::string> Remaining() const;  ///< The words of a foreign command.
 

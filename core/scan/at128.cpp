@@ -175,7 +175,7 @@ At128Correction::At128Correction(std::span<const char> bytes) {
   for (Shifts* shifts : {&azimuth_shifts_, &elevation_shifts_}) {
     shifts->resize(kAt128Lasers * kShifts);
     std::copy_n(place, shifts->size(), shifts->begin());
-    // Those of real units are below 1 deg.
+    // The shifts of real units are below 1 deg.
     constexpr int kMost_deg = 5;
     for (const auto shift : *shifts) {
       const int size = std::abs(static_cast<int>(shift));

@@ -24,7 +24,7 @@ class At128Correction {
 
   static constexpr std::uint32_t kFields = 3;
   static constexpr double kFieldTurn_deg = 120.0;
-  static constexpr double kStepsPerDeg = 25'600.0;  ///< Of azimuths in files and packets.
+  static constexpr double kStepsPerDeg = 25'600.0;  ///< Steps of azimuths in files and packets.
 
   /// The direction of a laser. Azimuths count clockwise from forward.
   struct Direction {
@@ -36,7 +36,7 @@ class At128Correction {
   [[nodiscard]] std::size_t FieldAt(double block_deg) const;
   /// @param field That of the block.
   [[nodiscard]] Direction At(double block_deg, std::size_t field, std::size_t laser) const;
-  /// Of a laser, before the shifts that depend on the rotor's azimuth.
+  /// The elevation of a laser, before the shifts that depend on the rotor's azimuth.
   [[nodiscard]] double elevation_deg(std::size_t laser) const { return elevation_deg_[laser]; }
 
   /// The mean azimuth of the rotor at which fields start, beyond the first, second and third 120

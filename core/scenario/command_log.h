@@ -51,7 +51,7 @@ struct CommandLog {
 /// @param models Those of the scenario that was run, as for ReadCommand().
 [[nodiscard]] CommandLog ReadCommandLog(const std::filesystem::path& file,
                                         const std::vector<ModelSpec>& models = {});
-/// As above, but reads from a stream; messages call the file `shown`.
+/// The overload for a stream; messages call the file `shown`.
 [[nodiscard]] CommandLog ParseCommandLog(std::istream& stream,
                                          const std::string& shown,
                                          const std::vector<ModelSpec>& models = {});

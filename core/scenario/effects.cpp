@@ -38,11 +38,8 @@ class SpecChecker final : public Archive {
     errors_.Add({pointer_ + PointerStep(first), std::string(rule), sound_.at(first)});
   }
 
-  // Of files only.
-  void Preset(std::string_view,
-              std::optional<std::string>&,
-              KeyDoc,
-              const FilePreset&) override {}
+  // For files only.
+  void Preset(std::string_view, std::optional<std::string>&, KeyDoc, const FilePreset&) override {}
   void Types(std::string_view, std::vector<ModelSpec>&, KeyDoc) override {}
   void Switches(std::string_view,
                 std::map<std::string, bool>&,

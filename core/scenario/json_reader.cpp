@@ -21,7 +21,7 @@ void ReadElement(JsonSource& source, const Node& node, const ValueRef& value, bo
   }
 }
 
-// Of `list`, each element by the rule.
+// Reads the elements of `list`, each by the rule.
 void ReadTexts(JsonSource& source, const Node& node, const ValueRef& list, const RuleRef& rule) {
   if (!CheckListOfAtLeast(source, node, {})) return;
   list.type->renew(list.place, node.json->size());

@@ -92,7 +92,7 @@ std::optional<std::string> Nearest(std::string_view name, const std::vector<std:
   // A name with more than half of its letters wrong is not a typing error.
   std::size_t distance = name.size() / 2 + 1;
   for (const std::string& other : valid) {
-    // As many letters as the one is longer are to be put into the other at least.
+    // The distance is at least the difference in length.
     if (std::max(name.size(), other.size()) - std::min(name.size(), other.size()) >= distance)
       continue;
     const std::size_t to_other = EditDistance(name, other);

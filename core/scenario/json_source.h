@@ -33,7 +33,7 @@ struct Node {
   std::shared_ptr<const Node> beneath{};
 
   [[nodiscard]] Node Child(std::string_view key) const;
-  /// As above for a value that is known already, which saves the linear search for the key.
+  /// The overload for a value that is known already, which saves the linear search for the key.
   [[nodiscard]] Node Child(std::string_view key, const Json& value) const;
   [[nodiscard]] Node Child(std::size_t index) const;
 };
@@ -80,8 +80,9 @@ class JsonSource {
 
   /// The members of an object, whether written in place or given as a file. Nothing if faulty.
   [[nodiscard]] std::optional<MemberList> Members(const Node& node);
-  /// As above for an object that may not be given as a file, because it is part of a list or has a
-  /// key "file" of its own, or is one of several kinds. It replaces that of a base file as a whole.
+  /// The members of an object that may not be given as a file, because it is part of a list or has
+  /// a key "file" of its own, or is one of several kinds. It replaces that of a base file as a
+  /// whole.
   [[nodiscard]] std::optional<MemberList> PlainMembers(const Node& node);
 
   /// The absolute name of the file that the string `node` names, or its name as it is if the
@@ -100,7 +101,7 @@ class JsonSource {
   /// Places whose values are unknown because of faults, as pointers in the resolved scenario.
   [[nodiscard]] UnknownPlaces& unknown() { return unknown_; }
   [[nodiscard]] ScenarioSources& sources() { return sources_; }
-  /// Those that objects may have, as far as they are read.
+  /// The types that objects may have, as far as they are read.
   [[nodiscard]] ObjectTypes& types() { return types_; }
 
  private:

@@ -368,7 +368,7 @@ void ReadOrigin(MetadataReader& reader, OusterMetadata& metadata) {
 }
 
 void ReadTransforms(MetadataReader& reader, OusterMetadata& metadata) {
-  // Those of all sensors whose metadata do not say so.
+  // This holds for all sensors whose metadata do not say otherwise.
   constexpr double kLidarHeight_m = 0.03618;
   metadata.sensor_from_lidar =
       reader.RowsOfTransform(kLidarIntrinsics, "lidar_to_sensor_transform")

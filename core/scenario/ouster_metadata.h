@@ -48,7 +48,7 @@ struct OusterMetadata {
   std::string product_line;                      ///< "OS-1-128"; empty if not said.
   std::optional<std::uint64_t> serial_number{};  ///< As packets repeat it; absent if not said.
   std::optional<std::uint32_t> initialization_id{};
-  std::uint32_t columns_per_frame{};  ///< Of a whole turn.
+  std::uint32_t columns_per_frame{};  ///< Columns of a whole turn.
   double rate_hz{};                   ///< Turns per second.
   std::uint32_t columns_per_packet{};
   std::uint32_t pixels_per_column{};
@@ -87,7 +87,7 @@ struct OusterMetadata {
 ///   (got value)".
 [[nodiscard]] OusterMetadata ParseOusterMetadata(const std::string& text);
 
-/// As above, of a sensor whose packets are read or made: `packet_faults` are errors, too.
+/// As ParseOusterMetadata(), but `packet_faults` are errors, too: for packets, read or made.
 [[nodiscard]] OusterMetadata ParseOusterOfPackets(const std::string& text);
 
 /// Metadata as later firmware lays it out, whichever layout `text` has; what neither has is left

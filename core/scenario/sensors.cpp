@@ -71,7 +71,7 @@ std::string SharingFault(const std::vector<std::string>& receivers,
 
 /// The ports of a family of protocols.
 struct ProtocolPorts {
-  Protocol first{};  ///< Of the family, which ends where the next one begins.
+  Protocol first{};  ///< First of the family, which ends where the next one begins.
   std::uint16_t data{};
   std::optional<std::uint16_t> position{};
 };

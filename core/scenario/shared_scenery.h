@@ -15,7 +15,7 @@ namespace railcast {
 /// What scenarios of one process have in common, built once: lines, plants, chunks and Embree's
 /// trees. The bytes of frames do not depend on it. Thread-safe.
 struct SharedScenery {
-  /// Of the chunks that are kept: 100 to 200 MB with their trees (docs/results/dataset_costs.md).
+  /// How many chunks are kept: 100 to 200 MB with their trees (docs/results/dataset_costs.md).
   static constexpr std::size_t kMostTriangles = 1'000'000;
 
   explicit SharedScenery(const std::string& isa_of_trace = {})

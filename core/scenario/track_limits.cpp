@@ -51,7 +51,7 @@ struct Traveller {
 /// A train whose foremost buffers reach its track's end before the point does whose chainage is
 /// known.
 struct TrainFront {
-  double ahead_m{};  ///< Of that point, measured along the track.
+  double ahead_m{};  ///< Distance of that point, measured along the track.
   bool runs_back{};
 };
 

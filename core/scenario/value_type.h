@@ -91,22 +91,22 @@ struct ValueType {
   };
   Kind kind{};
 
-  std::uint64_t most{};  ///< Of kWhole.
+  std::uint64_t most{};  ///< For kWhole.
   std::uint64_t (*whole)(const void*){};
   void (*set_whole)(void*, std::uint64_t){};
 
-  std::vector<std::string> (*names)(){};  ///< Of kName.
+  std::vector<std::string> (*names)(){};  ///< For kName.
   std::string (*name)(const void*){};
   void (*set_name)(void*, const std::string&){};
 
-  const ValueType* (*of)(){};           ///< Of the elements of kOptional, kArray, kList, kMap.
+  const ValueType* (*of)(){};  ///< The type of the elements of kOptional, kArray, kList, kMap.
   std::size_t (*size)(const void*){};   ///< Their number; of kVariant the alternative's index.
   void (*renew)(void*, std::size_t){};  ///< Makes that many new ones, or that alternative.
   void* (*at)(void*, std::size_t){};    ///< An element, or the alternative.
-  std::vector<std::string> (*keys)(const void*){};  ///< Of kMap.
-  void* (*member)(void*, const std::string&){};     ///< Of kMap; a new one if there is none.
+  std::vector<std::string> (*keys)(const void*){};  ///< For kMap.
+  void* (*member)(void*, const std::string&){};     ///< For kMap; a new one if there is none.
 
-  void (*describe)(Archive&, void*){};  ///< Of kStruct.
+  void (*describe)(Archive&, void*){};  ///< For kStruct.
   void* (*make)(){};                    ///< A new value; of all kinds. NewValue owns it.
   void (*end)(void*){};
   bool is_written_in_place{};
@@ -116,9 +116,9 @@ struct ValueType {
     const char* name{};
     const ValueType* type{};
   };
-  std::vector<Alternative> (*alternatives)(){};  ///< Of kVariant.
+  std::vector<Alternative> (*alternatives)(){};  ///< For kVariant.
 
-  void (*read)(JsonSource&, const Node&, void*){};  ///< Of kOwn.
+  void (*read)(JsonSource&, const Node&, void*){};  ///< For kOwn.
 };
 
 /// A value of a type, with its defaults.

@@ -69,7 +69,7 @@ double LeastGap_m(const std::vector<NearBody>& of_one,
   // Sorted along an axis, so that pieces with thousands of triangles need not all be compared.
   const auto begin_m = [](const NearBody& body) { return body.box_m.min().x(); };
   std::ranges::sort(of_other, {}, begin_m);
-  std::vector<double> end_m;  // Of each body, and of those before it.
+  std::vector<double> end_m;  // Farthest end of each body and of those before it.
   for (const NearBody& other : of_other) {
     const double own_m = other.box_m.max().x();
     end_m.push_back(end_m.empty() ? own_m : std::max(end_m.back(), own_m));

@@ -41,7 +41,7 @@ class ContactFinder {
 
   /// All contacts at one moment, by `one` and `other`.
   [[nodiscard]] std::vector<ObjectContact> FindAll(std::int64_t time_ns);
-  /// Those of the sensor's own vehicles with all else.
+  /// The contacts of the sensor's own vehicles with all else.
   [[nodiscard]] std::vector<ObjectContact> FindOfVehicle(std::int64_t time_ns);
 
  private:
@@ -66,7 +66,7 @@ class ContactFinder {
   [[nodiscard]] const std::vector<Piece>& PiecesOfObject(std::size_t object);
 
   const World& world_;
-  std::vector<Eigen::AlignedBox3d> bounds_m_;  ///< Of the objects' models, in their own frames.
+  std::vector<Eigen::AlignedBox3d> bounds_m_;  ///< Bounds of the models, in their own frames.
   std::vector<Transform> world_from_object_;
   std::vector<Eigen::AlignedBox3d> boxes_world_;  ///< Widened, so that those that touch meet.
   std::map<const Model*, std::vector<Piece>> pieces_;

@@ -21,7 +21,7 @@ namespace railcast {
 ///   degrees at each.
 [[nodiscard]] Mesh MakeTube(std::span<const Vector3> centreline, double radius_m, int num_sides);
 
-/// As above, with a radius for each point and linear interpolation in between.
+/// The overload with a radius for each point and linear interpolation in between.
 [[nodiscard]] Mesh MakeTube(std::span<const Vector3> centreline,
                             std::span<const double> radii_m,
                             int num_sides);

@@ -56,7 +56,7 @@ double BesideBeam_rad(const DetectorSpec& detector) {
   constexpr double kMostDeviation = 6.0;
   double beside_rad = 0.0;
   if (HasFootprint(detector)) {
-    // Of a dense pattern, the outermost of n sub-rays is at sqrt(2 ln 2n) standard deviations.
+    // In a dense pattern, the outermost of n sub-rays is at sqrt(2 ln 2n) standard deviations.
     const double offset = std::max(
         static_cast<double>(SubRaysOfBeam().largest_offset),
         std::sqrt(2.0 * std::log(2.0 * static_cast<double>(detector.beam.reference_rays))));

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t kApart_ns = 500'000;
 
-/// Of three places that are kApart_ns apart, the derivative at each is the sum of the places with
+/// The derivative at each of three places that are kApart_ns apart is the sum of the places with
 /// these weights, over kApart_ns.
 constexpr std::array<std::array<double, 3>, 3> kDerivative = {
     {{-1.5, 2.0, -0.5}, {-0.5, 0.0, 0.5}, {0.5, -2.0, 1.5}}};

@@ -162,7 +162,7 @@ std::unique_ptr<FrameScenes> FrameScenes::InFullDetail() const {
   full->has_texture_ = has_texture_;
   full->footprint_labels_ = footprint_labels_;
   full->last_stamp_ns_ = last_stamp_ns_;
-  // Of two frames that are made at once, the earlier one may be begun last.
+  // If two frames are made at once, the earlier one may be begun last.
   full->KeepWindows(1);
   return full;
 }

@@ -82,7 +82,7 @@ struct BegunFrame {
   std::shared_ptr<const Window> window;
   std::unique_ptr<const FrameScene> scene{};     ///< Null until FrameScenes::SceneOf().
   std::shared_ptr<const FiringTiles> tiles{};    ///< Its firings; null until their first use.
-  std::shared_ptr<const ScanPattern> pattern{};  ///< Likewise; always null where it repeats.
+  std::shared_ptr<const ScanPattern> pattern{};  ///< Null before its use, and where it repeats.
 };
 
 /// Properties that all frames of a run share.
@@ -184,7 +184,7 @@ class FrameScenes {
   struct MovingThings {
     std::vector<TracePlacement> placements;
     TraceFigures figures;
-    std::vector<std::size_t> objects;  ///< Of each figure, then of each placement.
+    std::vector<std::size_t> objects;  ///< For each figure, then for each placement.
   };
   /// An object in reach: a figure, its pieces, or nothing.
   struct PlacedObject {

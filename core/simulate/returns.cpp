@@ -42,7 +42,7 @@ void StoreEcho(const TilePlace& echo,
   frame.true_range_m[slot] = tile.true_range_m[lane];
   frame.outcome[slot] = OutcomeOf(echo);
   frame.label[slot] = is_clutter ? tile.clutter[lane] : surface.label;
-  // Of clutter, only the physical rungs' mirror images have a surface: the one that is mirrored.
+  // Among clutter, only the physical rungs' mirror images have a surface: the one that is mirrored.
   const bool has_surface = !is_clutter || has_shares;
   frame.instance[slot] = has_surface ? surface.instance : 0;
   frame.material[slot] = has_surface ? surface.material : std::uint16_t{0};

@@ -34,7 +34,7 @@ class TraceStock {
   struct ChunkForm {
     int chunk{};
     bool has_tubes = true;  ///< Whether `ground` holds the wires as tubes.
-    std::size_t level = 0;  ///< Of World::BuildCoarserChunk(); 0 = the finest.
+    std::size_t level = 0;  ///< Level of World::BuildCoarserChunk(); 0 = the finest.
     auto operator<=>(const ChunkForm&) const = default;
   };
   /// A chunk without plants, if these are made apart.
@@ -43,7 +43,7 @@ class TraceStock {
     Model ground_surfaces;  ///< The ground's parts without their triangles.
     std::vector<Placement> placements;
     std::vector<Wire> wires;
-    std::size_t num_triangles{};  ///< Of the ground.
+    std::size_t num_triangles{};  ///< Triangles of the ground.
   };
   [[nodiscard]] std::shared_ptr<const BareChunk> GetChunk(const RailWorld& world,
                                                           const ChunkForm& form);

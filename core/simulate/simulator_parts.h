@@ -57,7 +57,7 @@ struct Simulator::Parts {
   ScanPattern pattern;
   SimulatorSpec spec;
   std::vector<Material> materials;
-  std::shared_ptr<const FiringTiles> tiles;  // Of all frames, or of frame 0 if they differ.
+  std::shared_ptr<const FiringTiles> tiles;  // For all frames, or for frame 0 if they differ.
   FrameScenes scenes;
   /// In full detail, for variants; null if none asks for it, or if `scenes` are.
   std::unique_ptr<FrameScenes> full_scenes;

@@ -69,7 +69,7 @@ struct SwayedThings {
   std::vector<TracePlacement> placements;   ///< Trees, and wires as tubes, within reach.
   WireSet wires;                            ///< All wires of the window.
   std::vector<std::uint32_t> own_surfaces;  ///< The window's surface that each own one copies.
-  SurfaceMotions motions;                   ///< Of the own surfaces.
+  SurfaceMotions motions;                   ///< Motions of the own surfaces.
 };
 
 /// Moves everything to where it is during a frame. Between the time steps, all moves linearly:

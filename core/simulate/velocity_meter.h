@@ -78,7 +78,7 @@ class VelocityMeter {
   std::uint64_t seed_;
   VelocitySpec spec_;
   double sigma_mps_;
-  // Of the air and what falls through it, in window axes.
+  // Velocity of the air and what falls through it, in window axes.
   Vector3 wind_mps_;
   Vector3 drops_mps_;
   Vector3 flakes_mps_;

@@ -24,7 +24,7 @@ struct InstancePlace {
 /// A time between two steps of a moving instance.
 struct BetweenSteps {
   std::size_t before;
-  float part;  ///< Of the way to the next step.
+  float part;  ///< Part of the way to the next step.
 };
 
 [[nodiscard]] inline BetweenSteps StepsAt(const BeamInstance& instance, float shutter) {

@@ -142,8 +142,8 @@ inline void AimProbes(const Cone& cone, const SubRayPlaces& places, Probes& prob
   return met != 0;
 }
 
-/// Those of `num` sub-rays from `begin` on that pass through the triangle in a lane of a leaf, as a
-/// bit mask.
+/// Which of `num` sub-rays from `begin` on pass through the triangle in a lane of a leaf, as a bit
+/// mask.
 template <std::size_t num>
 [[nodiscard]] inline std::uint64_t RaysInside(const LeafProducts& t,
                                               std::size_t lane,

@@ -135,7 +135,7 @@ inline void PushChildren(TreePointer pointer,
   ChildDistances distances;
   std::uint32_t children = ChildrenMet(node, model.lanes, far, distances) & PlacesInUse(pointer);
   if (children == 0) return;
-  // Of the children that the cone meets, 64 sub-rays meet nine tenths, but 16 only one half.
+  // 64 sub-rays meet nine tenths of the children that the cone meets, but 16 only one half.
   if (beam.num_rays == kNumCrowdedSubRays) {
     if (!places.are_known) PlaceSubRays(beam, places);
     if (!model.has_probes) AimProbes(model.cone, places, model.probes);

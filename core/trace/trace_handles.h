@@ -152,12 +152,12 @@ inline OwnedGeometry NewGeometry(RTCDevice device, RTCGeometryType type) {
   return geometry;
 }
 
-/// Of closed surfaces: no ray passes between two triangles that share an edge.
+/// For closed surfaces: no ray passes between two triangles that share an edge.
 inline constexpr RTCSceneFlags kWatertight = RTC_SCENE_FLAG_ROBUST;
-/// Of foliage, which is no closed surface; faster.
+/// For foliage, which is no closed surface; faster.
 inline constexpr RTCSceneFlags kOpen = RTC_SCENE_FLAG_NONE;
 
-/// Of the settings measured, a higher quality gains nothing (docs/results/performance.md).
+/// A higher quality than this gained nothing when measured (docs/results/performance.md).
 inline RTCScene NewScene(RTCDevice device, RTCSceneFlags flags) {
   RTCScene scene = rtcNewScene(device);
   if (scene == nullptr) throw std::bad_alloc();

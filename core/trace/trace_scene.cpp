@@ -61,7 +61,7 @@ struct TraceScene::Parts {
   // Referenced by the scene; kept alive here.
   std::vector<std::shared_ptr<const TraceModel>> models;  ///< By placement.
   std::unique_ptr<const PosedFigures> figures;            ///< Null if there are none.
-  std::vector<InstanceRecord> instances;                  ///< Of figures, then of placements.
+  std::vector<InstanceRecord> instances;  ///< Instances of figures, then of placements.
   RTCScene scene{};
   bool has_foliage = false;
 
@@ -82,7 +82,7 @@ struct TraceScene::Parts {
   struct Beams {
     BeamTree tree;
     std::vector<BeamInstance> instances;
-    std::vector<BeamBox> moving_boxes;  ///< Of those that move, at each of their steps.
+    std::vector<BeamBox> moving_boxes;  ///< Boxes of moving ones, at each of their steps.
     BeamScene scene;
   };
   struct BeamParts {
@@ -91,7 +91,7 @@ struct TraceScene::Parts {
   };
   /// They are built, with the models' trees, when they are first needed.
   [[nodiscard]] const BeamParts& beams() const;
-  /// Likewise, of surfaces with these labels.
+  /// The parts that are surfaces with these labels, also built when they are first needed.
   [[nodiscard]] const BeamParts& beams_of(const std::vector<std::uint32_t>& labels) const;
 
  private:
@@ -416,7 +416,7 @@ void TracePackets(RTCScene scene, Coherence coherence, const RayTile& tile, cons
 
 /// Collects what a packet hits.
 struct CollectingContext : RayQueryContext {
-  const float* range_m;  ///< Of the packet's rays.
+  const float* range_m;  ///< Ranges of the packet's rays.
   std::vector<PlacementHits>* hits;
 };
 

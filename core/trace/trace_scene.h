@@ -61,14 +61,14 @@ struct TracePlacement {
 /// A rigid piece of something that bends.
 struct TracePiece {
   std::shared_ptr<const TraceModel> model;
-  std::uint32_t first_surface{};  ///< Of its part 0, counted from the first surface of the whole.
+  std::uint32_t first_surface{};  ///< For part 0; counts from the first surface of the whole.
 };
 
 /// Something that bends, such as a person who walks.
 struct TraceFigure {
   std::shared_ptr<const std::vector<TracePiece>> pieces;
   Eigen::AlignedBox3f window_box_m;  ///< Contains the pieces as long as the shutter is open.
-  std::uint32_t num_steps{};         ///< Of its poses, at equal time steps: two or more.
+  std::uint32_t num_steps{};         ///< Number of its poses, at equal time steps: two or more.
   std::uint32_t first_surface{};
 };
 

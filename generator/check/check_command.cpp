@@ -33,7 +33,7 @@ struct CheckOptions {
 
 struct ReportChoices {
   bool is_verbose = false;
-  std::optional<double> cost_share{};  ///< Of a certificate; absent = none is asked for.
+  std::optional<double> cost_share{};  ///< Share for a certificate; absent = none is asked for.
 };
 
 /// The report on a scenario with one sensor.

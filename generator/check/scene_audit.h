@@ -50,7 +50,7 @@ struct SceneAudit {
 
 /// How coarse a window is for a sensor.
 struct DetailAudit {
-  std::size_t num_chunks{};          ///< Of which ...
+  std::size_t num_chunks{};          ///< All chunks; among them ...
   std::size_t num_coarser_chunks{};  ///< ... this many are traced in a coarser form.
   std::size_t full_surfaces{};       ///< Triangles of the chunks' own surfaces in full detail.
   std::size_t traced_surfaces{};     ///< The same as they are traced.
@@ -58,8 +58,8 @@ struct DetailAudit {
     std::size_t num_placements{};
     double nearest_m{};  ///< Least distance of any of them.
   };
-  std::size_t full_triangles{};    ///< Of all placements that have coarser models, in full detail.
-  std::size_t traced_triangles{};  ///< Of the same as they are traced.
+  std::size_t full_triangles{};    ///< All placements with coarser models, in full detail.
+  std::size_t traced_triangles{};  ///< The same placements as they are traced.
   /// By the label of the models' first part, and by level from the finest.
   std::map<std::uint32_t, std::map<std::size_t, Level>> levels;
 };

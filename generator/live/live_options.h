@@ -61,7 +61,7 @@ struct StreamOptions : CommandOptions, RosOptions {
   std::optional<std::filesystem::path> pcap;
   std::optional<std::filesystem::path> calibration;  ///< For protocol hdl64e.
   std::optional<std::string> http;           ///< HOST:PORT to answer at; for protocol ouster.
-  std::optional<std::uint16_t> health_port;  ///< Of loopback, for those who watch over the run.
+  std::optional<std::uint16_t> health_port;  ///< On loopback, for those who watch over the run.
   std::optional<std::filesystem::path> commands_log;
   /// On which ROS 2's nodes give commands, for protocol ros2.
   std::optional<std::string> commands_topic;

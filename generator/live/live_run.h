@@ -60,7 +60,7 @@ struct LiveRecord {
   std::optional<std::uint64_t> uncertified_frames{};
   DurationHistogram certify{};  ///< Time for a certificate, by frame.
   std::optional<RunCertificate>
-      certificate{};  ///< Of all frames since the last reset; not set here.
+      certificate{};  ///< For all frames since the last reset; not set here.
 };
 
 /// The progress of a run after the frames of one stamp.

@@ -241,7 +241,7 @@ class LiveStreams {
   void MakeFrame(SensorStream& stream, std::uint32_t frame, Datagrams& datagrams);
 
   FrameMaker maker_;
-  std::vector<std::unique_ptr<SensorStream>> streams_;  ///< Those of UDP.
+  std::vector<std::unique_ptr<SensorStream>> streams_;  ///< The streams by UDP.
   LiveTopics* topics_ = nullptr;
   std::unique_ptr<CameraStream> camera_;  ///< Null if no images are sent.
   std::vector<Frame> frames_;             ///< By sensor.

@@ -193,7 +193,7 @@ std::string Describe(const std::vector<SensorStreamSpec>& streams,
   return text;
 }
 
-// Of the sensors. Images come at most as often.
+// The shortest period of the sensors. Images come at most as often.
 std::int64_t ShortestPeriodNs(const ScenarioSpec& scenario) {
   double rate_hz = scenario.lidar.scan.rate_hz;
   for (const LidarSpec& lidar : scenario.lidars) rate_hz = std::max(rate_hz, lidar.scan.rate_hz);
@@ -212,7 +212,7 @@ LiveRunSpec RunSpecOf(const StreamOptions& options, const ScenarioSpec& scenario
   return spec;
 }
 
-/// Those that there are.
+/// The sources that there are.
 std::vector<CommandSource*> SourcesOf(std::initializer_list<CommandSource*> all) {
   std::vector<CommandSource*> sources;
   std::ranges::copy_if(all, std::back_inserter(sources),

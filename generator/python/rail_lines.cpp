@@ -21,7 +21,7 @@ struct ChainageStretch {
 struct RailDrawing {
   const Alignment& alignment;
   Transform to_from_world;
-  double rail_d_m{};  ///< Of the middle of the left rail's head.
+  double rail_d_m{};  ///< Middle of the left rail's head.
   bool runs_along{};  ///< Whether the vehicle faces rising chainage.
 
   [[nodiscard]] RailLines Draw(const std::string& name,

@@ -48,7 +48,7 @@ class IndexedRecording {
   std::filesystem::path source_;
   std::unique_ptr<Recording> recording_;
   std::mutex mutex_;
-  std::vector<Recording::FrameReader> readers_;  // Of the frames so far.
+  std::vector<Recording::FrameReader> readers_;  // Readers of the frames so far.
 };
 
 /// One pass over a recording, which keeps nothing of the frames before.

@@ -29,7 +29,7 @@ struct MergedFrame {
 
     bool operator==(const Part&) const = default;
   };
-  std::int64_t stamp_ns{};  ///< Of the first sensor's frame.
+  std::int64_t stamp_ns{};  ///< Stamp of the first sensor's frame.
   std::vector<Part> parts;  ///< By sensor, then by frame.
 };
 

@@ -137,7 +137,7 @@ FrameJob FrameMaker::Begin(std::size_t sensor, std::uint32_t frame_index) {
 const Certifier& FrameMaker::Certify(std::size_t sensor, double cost_share) {
   Simulator& simulator = *simulators_[sensor];
   certifiers_.erase(sensor);
-  // Of a scenario with several sensors, a certifier knows its own.
+  // If a scenario has several sensors, a certifier knows its own.
   const ScenarioSpec own = PickSensor(scenario_, SensorNames(scenario_).at(sensor));
   return certifiers_.emplace(sensor, Certifier(own, cost_share, simulator)).first->second;
 }

@@ -32,7 +32,7 @@ struct MadeFrame {
   CameraImage image;
   bool has_image = false;  ///< Whether the camera has an image of this frame.
   RigidMotion vehicle;     ///< At the stamp.
-  MotionSamples motion;    ///< Those in the time of this frame; none but of the first sensor.
+  MotionSamples motion;    ///< Samples in the time of this frame; only with the first sensor.
   std::optional<FrameCertificate> certificate;  ///< If the sensor's frames are certified.
 };
 

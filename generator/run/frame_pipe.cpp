@@ -76,7 +76,7 @@ class WritingQueue {
   }
 
   const FramePipe& pipe_;
-  std::size_t num_told_ = 0;  ///< Of those that are written.
+  std::size_t num_told_ = 0;  ///< Written frames that were told.
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::size_t> waiting_;  ///< The first is being written.

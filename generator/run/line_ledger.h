@@ -23,7 +23,7 @@ struct LineFileName {
 /// What the line of an item in the last file says.
 struct LedgerItem {
   std::vector<KnownFile> files;
-  std::string records_hash;  ///< Of the item's lines in the other files, one after another.
+  std::string records_hash;  ///< Hash of the item's lines in the other files, one after another.
   std::vector<std::uint32_t> num_lines;  ///< In each of these.
 };
 
@@ -63,7 +63,7 @@ class LineLedger {
  private:
   std::filesystem::path directory_;
   std::vector<LineFileName> files_;
-  std::vector<std::uint64_t> sizes_;  ///< Of the files, up to the items that were counted.
+  std::vector<std::uint64_t> sizes_;  ///< Sizes of the files, up to the items that were counted.
   std::vector<LineFile> open_;
 };
 

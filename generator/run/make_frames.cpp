@@ -31,7 +31,7 @@ struct SensorSequence {
   /// The time at which a frame of the sensor begins.
   std::function<std::int64_t(std::uint32_t index)> stamp_ns;
 
-  /// That of the sequence's i-th frame; nothing after the last.
+  /// The stamp of the sequence's i-th frame; nothing after the last.
   [[nodiscard]] std::optional<std::int64_t> StampOfFrame_ns(std::uint32_t i) const {
     if (i >= spec.num_frames) return std::nullopt;
     return stamp_ns ? stamp_ns(spec.FrameAt(i)) : 0;
@@ -140,7 +140,7 @@ void MakeMissing(std::vector<SequenceUnderWay>& sequences,
                       directory.Encode(slot.made, slot.encoded);
                       if (bag != nullptr) bag->Encode(slot.sequence, slot.made, slot.encoded);
                     });
-                    // Of thousands of objects, they would take megabytes in every frame that waits.
+                    // With thousands of objects, they would take megabytes in every waiting frame.
                     slots[i].made.objects = {};
                   }}};
   pipe.write = [&](std::size_t i) {

@@ -29,7 +29,7 @@ struct FramesAtOnce {
 
 struct SequenceResult : RunResult {
   FrameCounts counts;                         ///< Over all frames in the directory.
-  std::optional<RunCertificate> certificate;  ///< Likewise; if the run is certified.
+  std::optional<RunCertificate> certificate;  ///< Over the same, if the run is certified.
   double elapsed_s{};                         ///< Wall-clock time for the frames made in this run.
 };
 

@@ -131,7 +131,7 @@ RunDirectory::RunDirectory(SequenceSpec spec, std::uint32_t most_done)
     const std::string changed = WhatChanged();
     if (changed.empty()) return;
     changed_ = {ShownPath(spec_.directory) + ": " + changed + " was changed or removed"};
-    // Of an MCAP trace, the messages are known to be whole, but not what is around them.
+    // The messages of an MCAP trace are known to be whole, but not what is around them.
     if (fs::path(spec_.trace).extension() == ".mcap") fs::remove(spec_.directory / spec_.trace);
     fs::remove(manifest);
     is_complete_ = false;
@@ -151,11 +151,11 @@ void RunDirectory::CheckNames(bool is_run) const {
     // A run that was stopped before its first file was complete leaves an unfinished run.json.
     const bool is_own = is_run ? own.Have(name) || (finished && own.Have(*finished))
                                : finished == std::string_view(kRunFile);
-    // Of several, the first by its name is told, in whatever order the system has them.
+    // If there are several, the first by its name is told, whatever order the system has.
     if (!is_own && (stranger.empty() || name < stranger)) stranger = name;
     // A mesh may have a name that ends so, too.
     if (!finished || own.Have(name)) return;
-    // An unfinished bag or trace is gone on with.
+    // An unfinished bag or trace is continued.
     const bool is_kept = IsOfBag(*finished) || *finished == spec_.trace;
     if (is_kept && !fs::exists(spec_.directory / *finished)) return;
     unfinished.push_back(spec_.directory / name);
@@ -346,7 +346,7 @@ std::string RunDirectory::ManifestJson() const {
   for (const LineFileName& file : LineFileNames(spec_)) names.push_back(file.name);
   if (!spec_.trace.empty()) names.push_back(spec_.trace);
   for (const std::string& name : names) {
-    // Of thousands of objects, their file is larger than the memory may be.
+    // With thousands of objects, their file is larger than the memory may be.
     manifest.files.emplace_back(name, HashFile(spec_.directory / name).hash);
   }
   manifest.data_hash = DataHash(manifest.files);

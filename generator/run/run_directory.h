@@ -35,7 +35,7 @@ struct EncodedFrame {
   FrameRecord record;         ///< Without records_hash.
   PoseRecord pose;
   std::string objects_line;
-  std::vector<std::string> motion_lines;  ///< Of each motion sensor.
+  std::vector<std::string> motion_lines;  ///< For each motion sensor.
 };
 
 /// A directory that holds a sequence of frames, complete or unfinished.

@@ -24,7 +24,7 @@ struct RunChoices {
   std::filesystem::path directory;
   std::string format = "pcd";
   std::string fields = "all";
-  std::string isa;  ///< Of the trace; empty = the machine's best.
+  std::string isa;  ///< Instruction set of the trace; empty = the machine's best.
   std::uint32_t start_frame = 0;
   std::uint32_t num_frames = 10;
   std::uint32_t stride = 1;
@@ -58,7 +58,7 @@ struct SequenceSpec {
   std::function<std::unique_ptr<SequenceTrace>()> make_trace{};
   std::string camera;            ///< Name of the scenario's camera; empty = it has none.
   std::string calibration_json;  ///< CalibrationJson() of the camera.
-  /// Those whose samples belong to the frames; absent = none.
+  /// The sensors whose samples belong to the frames; absent = none.
   std::optional<MotionSensorsSpec> motion_sensors{};
   MaterialLibrary materials;
   std::uint32_t start_frame{};
@@ -85,7 +85,7 @@ struct RunPlan {
   bool is_merged{};       ///< Whether the sensors' clouds are merged, too.
   ScenarioSpec scenario;  ///< With all of these sensors.
   std::vector<SensorPlan> sensors;
-  std::vector<TimedCommand> commands;  ///< That change the simulation meanwhile.
+  std::vector<TimedCommand> commands;  ///< Commands that change the simulation meanwhile.
   std::string commands_place;          ///< Where they stand, for messages: "log.jsonl: ".
 
   /// Whether there are several sensors; then each has a folder of its own, and sensors.json names

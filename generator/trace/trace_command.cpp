@@ -19,7 +19,7 @@ struct TraceOptions {
   std::optional<std::string> sensor;  ///< Which sensor, if there are several.
   std::uint32_t frame = 0;
   std::uint32_t firing = 0;
-  std::string isa;  ///< Of the trace; empty = the machine's best.
+  std::string isa;  ///< Instruction set of the trace; empty = the machine's best.
 };
 
 int RunTrace(const TraceOptions& options) {

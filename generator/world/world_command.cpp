@@ -29,7 +29,7 @@ struct WorldOptions {
   std::filesystem::path out;       ///< Path ending in .ply, .glb or .obj.
   std::optional<double> from_s_m;  ///< Chainage; both are given or neither.
   std::optional<double> to_s_m;
-  std::uint64_t max_size_mb = 250;  ///< Of the file, in 1e6 bytes.
+  std::uint64_t max_size_mb = 250;  ///< Size of the file, in 1e6 bytes.
   bool is_verbose = false;
 };
 
@@ -93,7 +93,7 @@ std::string SizeText(std::size_t num_bytes) {
 /// Shows how far the gathering is, and ends it when the file would be too large.
 struct GatheredSize {
   const WorldOptions& options;
-  std::size_t num_chunks;  ///< Of the whole export.
+  std::size_t num_chunks;  ///< Chunks of the whole export.
   MeshSize gathered{};
   TerminalLine line{};
 

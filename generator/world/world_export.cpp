@@ -13,7 +13,7 @@
 namespace railcast {
 namespace {
 
-// Of PLY.
+// Sizes in PLY.
 constexpr std::size_t kVertexBytes = 3 * sizeof(float);
 constexpr std::size_t kFaceBytes = 1 + 3 * 4 + 3 + 4 + 4;
 

@@ -87,7 +87,7 @@ std::array<double, 2> FitScale(const FieldValues& field) {
   if (!sorted.empty()) {
     const std::size_t one_percent = sorted.size() / 100;
     ends = {sorted[one_percent], sorted[sorted.size() - 1 - one_percent]};
-    // Of a mark that few points bear, both percentiles are the value of all others.
+    // If few points bear a mark, both percentiles are the value of all others.
     if (ends[0] == ends[1]) ends = {sorted.front(), sorted.back()};
   }
   if (field.kind == FieldValues::Kind::kDifference) {

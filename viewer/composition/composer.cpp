@@ -102,7 +102,7 @@ void AddTo(Overlay&& part, Overlay& drawing) {
 struct Composer::World {
   Surroundings surroundings;
   ScanPattern pattern;
-  std::optional<ScanTable> scan;  ///< Of the pattern, if that is a grid.
+  std::optional<ScanTable> scan;  ///< Table of the pattern, if that is a grid.
   std::optional<int> home_chunk;  ///< The chunk that `standing` was gathered for.
   Transform world_from_standing = Transform::Identity();
   std::shared_ptr<const std::vector<Part>> standing;

@@ -111,7 +111,7 @@ CameraPicture RecordedPictures::Read(const ImageList::FrameImages& images, Pictu
   CameraPicture picture = AtPlace(ShownPath(source_ / file->name) + ": ", [&] {
     if (kind == PictureKind::kColor) return MakeColorPicture(DecodePngRgb(bytes));
     if (kind == PictureKind::kDepth) return DepthPicture(bytes);
-    // Those of KITTI's format have railcast's own ids, too.
+    // Label images in KITTI's format have railcast's own ids, too.
     if (!labels_) labels_ = ReadLabelTable(source_ / kLabelsFile);
     return LabelPicture(bytes, *labels_);
   });

@@ -63,7 +63,7 @@ class RecordedPictures {
 
   std::filesystem::path source_;
   std::optional<ImageList> list_;                  ///< Absent until it is first needed.
-  std::optional<LabelTable> labels_;               ///< Likewise.
+  std::optional<LabelTable> labels_;               ///< Absent until they are first needed.
   std::shared_ptr<const CameraPicture> last_;      ///< The picture that was read last, ...
   std::pair<std::size_t, PictureKind> last_is_{};  ///< ... its frame's place and its kind.
 };

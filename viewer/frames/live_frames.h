@@ -23,7 +23,7 @@ class LivePictures {
  public:
   /// What a frame and its image have in common.
   struct Instant {
-    std::uint32_t run{};  ///< Of the sender, as in StreamHeader.
+    std::uint32_t run{};  ///< Run of the sender, as in StreamHeader.
     std::int64_t stamp_ns{};
   };
 
@@ -125,7 +125,7 @@ class LiveFrames final : public Frames {
   }
 
   FrameShelf kept_{{.num_frames = 64}};  ///< The latest frames.
-  std::deque<Taken> taken_;              ///< Likewise, in the order of their places.
+  std::deque<Taken> taken_;              ///< The latest, in the order of their places.
   std::size_t num_taken_{};
   std::string fault_;
   mutable std::mutex mutex_;  ///< Guards what the grabber's thread changes.

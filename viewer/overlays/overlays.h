@@ -163,8 +163,7 @@ inline constexpr float kOpenBeamOpacity = 0.012F;
 
 /// Surfaces of the scene are shown up to this distance from the sensor.
 inline constexpr double kSceneRange_m = 150.0;
-/// Those of sleepers and ballast have a shorter limit, because 150 m of them are half a million
-/// triangles.
+/// Sleepers and ballast have a shorter limit, because 150 m of them are half a million triangles.
 inline constexpr double kTrackBedRange_m = 50.0;
 
 /// The standing scene about a vehicle that is anywhere in one chunk of the line: the ground, rails,

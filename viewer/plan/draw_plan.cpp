@@ -213,7 +213,7 @@ class PlanSheet {
   int font_px_{};
   vtkSmartPointer<vtkRenderWindow> window_ = vtkSmartPointer<vtkRenderWindow>::New();
   vtkNew<vtkRenderer> renderer_;
-  vtkProperty2D* last_{};  ///< Of the last shape.
+  vtkProperty2D* last_{};  ///< Properties of the last shape.
   double px_per_m_ = 1.0;
   Place least_m_ = Place::Zero();
   Place corner_px_ = Place::Zero();

@@ -43,7 +43,7 @@ inline constexpr double kPlanMargin_m = 50.0;
 /// beginning, x towards where it is at the stretch's end, y to the left of that.
 struct PlanFrame {
   Eigen::Vector2d origin_m;
-  Eigen::Vector2d ahead;  ///< Of length 1.
+  Eigen::Vector2d ahead;  ///< A vector of length 1.
 
   [[nodiscard]] Eigen::Vector2d Turned(const Eigen::Vector2d& world) const;
   [[nodiscard]] Eigen::Vector2d At(const Vector3& world_m) const;

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 /// What the sequences of a data set say of their scenarios.
 struct SeenScenarios {
   std::vector<ScenarioSpec> sample;    ///< One for each rung and sensor.
-  std::set<std::string> attributions;  ///< Of lines.
+  std::set<std::string> attributions;  ///< Attributions of lines.
   LabelTable labels;
   bool has_recordings = false;  ///< Into which objects were put.
 };

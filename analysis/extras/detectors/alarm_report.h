@@ -20,7 +20,7 @@ extern const char* const kDetectorsWords;
 struct ObjectBeside {
   std::string type;
   double from_axis_m = std::numeric_limits<double>::infinity();
-  std::uint64_t num_runs{};  ///< That come near it.
+  std::uint64_t num_runs{};  ///< Runs that come near it.
   std::uint64_t num_runs_with_alarm{};
   std::uint64_t num_alarms{};
 };

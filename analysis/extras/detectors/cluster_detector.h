@@ -21,7 +21,7 @@ struct ClusterDetectorSpec {
   /// so near could a train still stop.
   double min_distance_m = 5.0;
   double cluster_distance_m = 0.7;  ///< Points of a cluster are chained by distances up to this.
-  std::uint32_t min_points = 10;    ///< Of a cluster.
+  std::uint32_t min_points = 10;    ///< Least size of a cluster.
 
   bool operator==(const ClusterDetectorSpec&) const = default;
 };

@@ -75,7 +75,7 @@ struct OrientedBox {
 /// A box that a detector reports, where it was at the frame's stamp.
 struct DetectedBox {
   OrientedBox box;
-  std::uint32_t label{};   ///< That of most of its points; 0 without points or labels.
+  std::uint32_t label{};   ///< The label of most of its points; 0 without points or labels.
   std::string class_name;  ///< As the detector calls it; may be empty.
 };
 

@@ -17,8 +17,8 @@ struct EvaluationSpec {
   DetectSpec detect;  ///< Points of the rule do not count: what a detector reports is seen.
   std::optional<TrainGauge> gauge;  ///< In place of the vehicle's outline.
   bool has_files{};                 ///< Whether detections come from files.
-  ClusterDetectorSpec clusters;     ///< Of the reference detector, where they do not.
-  double min_score{};               ///< Of detections from files.
+  ClusterDetectorSpec clusters;     ///< For the reference detector, if they do not.
+  double min_score{};               ///< Least score of detections from files.
 };
 
 /// Reports how a detector does: for each object in the way whether it is detected in time, false

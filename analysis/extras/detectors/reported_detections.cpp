@@ -201,7 +201,7 @@ class Placing {
   const ReportedFrame& reported_;
   const RecordedFrame& recorded_;
   const Transform& vehicle_from_sensor_;
-  OutputSpec axes_;  ///< Of the boxes.
+  OutputSpec axes_;  ///< The axes of the boxes.
   const OwnTrack& track_;
   Compensation compensation_;
   RecordedMotion motion_;  ///< As the detector has it.

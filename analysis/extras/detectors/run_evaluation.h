@@ -46,7 +46,7 @@ struct EvaluatedRun {
   std::vector<std::uint32_t> frames;
   std::vector<double> latencies_s;
 
-  /// Those that the run comes near and that never reach into the gauge.
+  /// The objects that the run comes near and that never reach into the gauge.
   [[nodiscard]] std::vector<std::string> ObjectsBeside() const;
 };
 
@@ -73,7 +73,7 @@ class RunEvaluator {
     double s_m{};
     double distance_m{};
     std::string cause;
-    std::vector<std::string> objects;  ///< That it is of.
+    std::vector<std::string> objects;  ///< The objects that it belongs to.
   };
   [[nodiscard]] std::vector<FalseAlarm> AlarmsAt(const std::string& object,
                                                  const DetectionRule& rule) const;

@@ -132,7 +132,7 @@ namespace {
 
 // As --certify takes it.
 std::string CertifyText(std::optional<double> share) {
-  constexpr double kPlaces = 1e8;  // Of the percent, so that 7% is not 7.000000000000001%.
+  constexpr double kPlaces = 1e8;  // Places of the percent, so that 7% is not 7.000000000000001%.
   return share ? NumberText(std::round(kPlaces * 100.0 * *share) / kPlaces) + "%" : "off";
 }
 

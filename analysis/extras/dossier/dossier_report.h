@@ -41,8 +41,8 @@ struct ComparedApproach {
 
 /// How far the rung of a study is from the reference on the study's own scenes.
 struct ModelError {
-  std::string rung;            ///< Of the study; empty if its scenarios differ in their rungs.
-  std::uint32_t min_points{};  ///< That the study's rule or detector asks for.
+  std::string rung;            ///< The study's rung; empty if its scenarios differ in their rungs.
+  std::uint32_t min_points{};  ///< What the study's rule or detector asks for.
   std::vector<ComparedApproach> approaches;
 };
 

@@ -34,7 +34,7 @@ struct Figure {
 class MeanError {
  public:
   void Add(const Estimate& sigma) {
-    constexpr double kNormalQuantile = 1.959964;  // Of 95 % intervals.
+    constexpr double kNormalQuantile = 1.959964;  // For 95 % intervals.
     const double error = 0.5 * (sigma.high - sigma.low) / (kNormalQuantile * sigma.value);
     if (!std::isfinite(error)) return;
     squares_ += error * error;

@@ -38,7 +38,7 @@ class FitProof {
   void Judge(ScenarioSpec scenario, FitResult& result) const;
 
  private:
-  std::vector<SeenTurns> halves_;  ///< Of the sectors: those that show a plane.
+  std::vector<SeenTurns> halves_;  ///< The sectors that show a plane.
   std::string source_;
 };
 

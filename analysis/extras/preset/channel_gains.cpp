@@ -112,12 +112,12 @@ Estimate PartOf(const std::vector<Products>& channels, Eigen::Index part) {
     }
     const Eigen::Matrix2d& n = others.normal;
     const double determinant = n(0, 0) * n(1, 1) - n(0, 1) * n(0, 1);
-    // All as far apart in range tell no parts.
+    // Pairs that are all equally far apart in range do not tell the parts from each other.
     if (!(determinant > 1e-6 * n(0, 0) * n(0, 0))) return std::numeric_limits<double>::quiet_NaN();
     return (n(1 - part, 1 - part) * others.right[part] - n(0, 1) * others.right[1 - part]) /
            determinant;
   };
-  // Of the variance, which is as often below 0 as above where there is none.
+  // This estimates the variance, which is as often below 0 as above where there is none.
   Estimate found = EstimateOf(Jackknife(without, sizes));
   for (double* const end : {&found.value, &found.low, &found.high}) {
     *end = std::copysign(std::sqrt(std::abs(*end)), *end);

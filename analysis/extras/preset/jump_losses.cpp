@@ -9,7 +9,7 @@ namespace {
 
 /// A depth jump in a ring.
 struct Jump {
-  Vector3 row = Vector3::Zero();  ///< Of the equations of least squares.
+  Vector3 row = Vector3::Zero();  ///< A row of the equations of least squares.
   double num_lost{};
   double size_m{};
   bool is_beyond_1m{};  ///< The near side.

@@ -174,7 +174,7 @@ struct PlaneFigures {
   [[nodiscard]] std::uint64_t num_points(std::size_t bin) const {
     return firings[bin].num_expected - firings[bin].num_missing;
   }
-  /// Of all bins together.
+  /// The share of holes over all bins together.
   [[nodiscard]] double HoleShare() const;
   Noise noise;
   TemporalNoise temporal;
@@ -199,7 +199,7 @@ struct PresetComparison {
   std::size_t num_turns{};
   std::size_t num_planes{};
   PlaneFigures recorded, simulated;
-  std::vector<IntensityCell> intensity;  ///< Of all turns, with one reflectivity everywhere.
+  std::vector<IntensityCell> intensity;  ///< From all turns, with one reflectivity everywhere.
   EchoGaps gaps;
 
   // The figures of docs/results/validation.md; each bin counts alike. NaN without bins.
@@ -228,7 +228,7 @@ struct SeenTurns {
     SeenPlanes seen;
     std::map<PlaneCell, CellPoints> intensities;
   };
-  std::vector<Turn> turns;  ///< Those with planes and intensities up to 1.
+  std::vector<Turn> turns;  ///< The turns with planes and intensities up to 1.
   PlaneFigures recorded;
 };
 

@@ -22,8 +22,8 @@ struct TwoDeviations {
 
 /// Losses at depth jumps in rings.
 struct JumpLosses {
-  /// Of the jumps of 3 to 10 m with at most one firing without a return between both sides: those
-  /// with one.
+  /// Among the jumps of 3 to 10 m with at most one firing without a return between both sides,
+  /// those with one.
   Estimate share;
   /// Firings without a return at a jump of 1 m or more with the near side beyond 1 m, up to four,
   ///   base + b (1 / near - 1 / far) / step of azimuth,

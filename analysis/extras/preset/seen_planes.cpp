@@ -101,7 +101,7 @@ constexpr double kLeastShare = 0.004;
 
 struct GridPoint {
   Vector3 position_m = Vector3::Zero();
-  Vector3 normal = Vector3::Zero();  // Of the surface about it; zero where that is not known.
+  Vector3 normal = Vector3::Zero();  // Normal of the surface about it; zero if that is not known.
   std::size_t row{};
   std::size_t column{};
 };
@@ -244,7 +244,7 @@ SeenPlanes FindSeenPlanes(const Frame& frame, const ScanTable& scan, Sectors sec
   SeenPlanes seen{.scan = scan, .planes = {}, .plane = {}};
   seen.plane.assign(std::size_t{frame.rows} * frame.columns, SeenPlanes::kNone);
   std::vector<GridPoint> points;
-  std::vector<GridPoint> smooth;  // Those of which the surface about them is known.
+  std::vector<GridPoint> smooth;  // The points about which the surface is known.
   for (std::size_t row = 0; row < frame.rows; ++row) {
     for (std::size_t column = 0; column < frame.columns; ++column) {
       if (!IsInSectors(sectors, scan.column_azimuth_rad[column] + scan.row_azimuth_rad[row])) {

@@ -42,7 +42,7 @@ struct TargetView {
   std::map<std::uint32_t, std::size_t> hidden_by{};  ///< Rays by the label of what they meet.
 
   [[nodiscard]] bool is_seen() const { return 2 * num_free >= num_rays; }
-  /// More rays may tell another tale only of a target that is neither free nor hidden as a whole.
+  /// More rays can change the verdict only where some were free and some were not.
   [[nodiscard]] bool is_settled() const {
     return num_rays > 0 && (num_free == 0 || num_free == num_rays);
   }

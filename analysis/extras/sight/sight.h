@@ -17,7 +17,7 @@ extern const char* const kSightWords;
 
 /// What is looked for from where.
 struct SightSpec {
-  /// Of the targets, above top of rail: what lies on the track, a child or an animal, a person.
+  /// Heights of targets above top of rail: a thing on the track, a child or an animal, a person.
   std::vector<double> heights_m = {0.3, 1.0, 2.0};
   double step_m = 10.0;  ///< From one place to the next, at least.
   /// How far from the sensor the targets are sought; absent = its greatest range.
@@ -55,8 +55,8 @@ struct Sight {
 /// A place on the vehicle's way.
 struct SightPlace {
   std::uint32_t frame{};
-  double chainage_m{};          ///< Of the sensor.
-  double speed_mps{};           ///< Of the vehicle there.
+  double chainage_m{};          ///< The sensor's chainage.
+  double speed_mps{};           ///< The vehicle's speed there.
   double gradient{};            ///< Mean over the braking distance, in the direction of travel.
   double stop_m{};              ///< Braking distance.
   double needed_m{};            ///< With the margin.

@@ -28,7 +28,7 @@ struct StudiedObject {
   std::string name{};
   std::string type{};
   bool is_detected{};
-  double distance_m{};  ///< Of the detection; NaN without one.
+  double distance_m{};  ///< Where it was detected; NaN without a detection.
   /// Number of the frame that completes the rule, or that of the closest point without detection.
   std::uint32_t frame{};
   bool is_from_start{};                 ///< Whether the first frames complete the rule already.
@@ -36,12 +36,12 @@ struct StudiedObject {
   double farthest_m{};                  ///< ... from the first sighting on.
   double speed_mps{};                   ///< At the detection, or where it was first in range.
   double needed_m{};                    ///< To stop, with the margin.
-  std::map<std::string, Json> drawn{};  ///< Of the object itself, by JSON pointer.
+  std::map<std::string, Json> drawn{};  ///< What was drawn for the object itself, by JSON pointer.
 
   [[nodiscard]] std::string Target() const { return TargetOf(name); }
   /// 0 without detection.
   [[nodiscard]] double detected_m() const { return is_detected ? distance_m : 0.0; }
-  /// Of what was not detected, the distance needed is missing.
+  /// If the object was not detected, the whole distance needed is missing.
   [[nodiscard]] double spare_m() const { return detected_m() - needed_m; }
   [[nodiscard]] bool is_in_time() const { return is_detected && spare_m() >= 0.0; }
   /// Whether the approach began too near to tell: detected at once, yet too late.
@@ -77,10 +77,10 @@ struct ApproachRecord {
   std::uint64_t seed{};
   std::string base{};
   std::map<std::string, Json> drawn{};     ///< By name or JSON pointer.
-  std::vector<StudiedObject> objects{};    ///< Those in the way that are approached.
-  std::optional<ApproachAlarms> alarms{};  ///< Of studies with a detector.
+  std::vector<StudiedObject> objects{};    ///< The objects in the way that are approached.
+  std::optional<ApproachAlarms> alarms{};  ///< Only in studies with a detector.
   std::optional<ApproachCertificate> certificate{};
-  /// Of an approach that was also made on a cheaper rung, LeastSpareOf() there.
+  /// If the approach was also made on a cheaper rung, LeastSpareOf() there.
   std::optional<double> cheap_spare_m{};
 };
 

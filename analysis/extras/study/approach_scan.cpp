@@ -45,7 +45,7 @@ Frame EmptyFrame(const Simulator& simulator, std::uint32_t index, std::uint32_t 
 struct Target {
   std::size_t object{};  ///< Index into the world's objects.
   ObjectCourse* course{};
-  std::size_t num_approach{};  ///< Of its sightings, the first ones, which are its approach.
+  std::size_t num_approach{};  ///< How many of the first sightings are its approach.
   std::size_t next{};          ///< The first sighting that was not traced.
   bool is_detected{};
 };

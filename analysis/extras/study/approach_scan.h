@@ -82,8 +82,8 @@ class ApproachScanner {
 
   /// How much was traced since the scanner was made.
   struct Effort {
-    std::uint64_t num_frames{};  ///< That were asked for.
-    std::uint64_t num_traced{};  ///< Those of which firings were traced.
+    std::uint64_t num_frames{};  ///< The frames that were asked for.
+    std::uint64_t num_traced{};  ///< The frames in which firings were traced.
   };
   [[nodiscard]] const Effort& effort() const { return effort_; }
 
@@ -99,10 +99,10 @@ class ApproachScanner {
   std::optional<double> certify_;
   std::optional<ScenarioSpec> shared_;  ///< What the simulator's geometry depends on.
   std::unique_ptr<Simulator> simulator_;
-  std::shared_ptr<const RailWorld> world_;  ///< Of the scenario.
+  std::shared_ptr<const RailWorld> world_;  ///< The scenario's world.
   Frame frame_;
   RecordedFrame recorded_;              ///< Whole frames, whose memory is used again.
-  std::optional<Certifier> certifier_;  ///< Of the scenario, as is the certificate.
+  std::optional<Certifier> certifier_;  ///< For the scenario, as is the certificate.
   std::optional<ApproachCertificate> certificate_;
   Effort effort_;
 };

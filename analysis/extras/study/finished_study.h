@@ -17,7 +17,7 @@ struct FinishedStudy {
   StudySpec spec;                     ///< As kept in the folder.
   Json recipe;                        ///< As kept in the folder; what it names need not exist.
   StudyResult result;                 ///< Without times.
-  std::vector<std::uint32_t> frames;  ///< Those of each approach.
+  std::vector<std::uint32_t> frames;  ///< The frames of each approach.
   std::vector<std::filesystem::path> sample;  ///< Files of scenarios, a sample of all.
 };
 

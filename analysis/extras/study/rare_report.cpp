@@ -102,7 +102,7 @@ MovedFactor MovedNumber(const RecipeFactor& factor, const std::map<double, doubl
           0.5 * (mean * mean + variance - 1.0 - std::log(variance))};
 }
 
-// Those that have moved most first.
+// The factors, the ones that have moved most first.
 std::vector<MovedFactor> MovedFactors(const RareStudy& study) {
   const std::vector<FailedTrial> failed = FailedTrials(study);
   std::vector<MovedFactor> moved;

@@ -31,8 +31,8 @@ double ThreadSeconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-// Of an approach, relative to those on `surface` (docs/study.md). A table, since a measurement
-// would make the numbers of approaches differ from run to run.
+// The cost of an approach, relative to one on `surface` (docs/study.md). A table, since a
+// measurement would make the numbers of approaches differ from run to run.
 double CostOfRung(Fidelity rung) {
   if (rung == Fidelity::kFootprint) return 2.5;
   return rung == Fidelity::kReference ? 25.0 : 1.0;

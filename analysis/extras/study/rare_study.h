@@ -16,9 +16,9 @@ namespace railcast {
 
 /// Something that a recipe draws, as a factor of rare failures.
 struct RecipeFactor {
-  std::string name{};   ///< Of its draw (KeyedDraws).
+  std::string name{};   ///< The name of its draw (KeyedDraws).
   std::string shown{};  ///< As studies name it: "weather", "/weather/visibility_m", "person /d_m".
-  Distribution distribution{};  ///< Of a group, a choice between the names of its options.
+  Distribution distribution{};  ///< For a group, a choice between the names of its options.
   RareFactor law{};
 };
 
@@ -36,7 +36,7 @@ struct RareStudy {
   std::vector<RecipeFactor> factors{};
   std::string cheap{};  ///< Rungs; both the same where there is one level only.
   std::string dear{};
-  RareRun run{};                             ///< Of all approaches.
+  RareRun run{};                             ///< The run of all approaches.
   std::vector<ApproachRecord> approaches{};  ///< By number; of pairs, those on the dear rung.
   std::uint32_t num_made{};                  ///< By this run.
   /// Processor time of an approach on the cheap rung, and of one on both; NaN if this run has made

@@ -34,8 +34,8 @@ struct StudyHooks {
 struct StudyResult {
   std::vector<ApproachRecord> approaches;  ///< All of the shard's that are done.
   std::uint32_t num_made{};                ///< By this run.
-  std::uint32_t num_approaches{};          ///< Of the shard.
-  std::uint64_t num_frames{};              ///< Of those made by this run.
+  std::uint32_t num_approaches{};          ///< Approaches of the shard.
+  std::uint64_t num_frames{};              ///< Frames of the approaches made by this run.
   std::uint64_t num_traced{};              ///< Frames among them of which firings were traced.
   double elapsed_s{};
   StudyRecord identity;  ///< What the figures depend on: versions and hashes.

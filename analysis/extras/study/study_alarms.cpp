@@ -13,7 +13,7 @@ namespace railcast {
 namespace {
 
 constexpr double kNoDistance = std::numeric_limits<double>::quiet_NaN();
-/// Of approaches that lead to nothing.
+/// The object of approaches that lead to nothing.
 constexpr const char* kNoObject = "no object";
 
 /// Approaches that have something in common.

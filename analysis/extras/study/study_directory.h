@@ -37,7 +37,7 @@ struct StudyRecord {
   std::string study_hash;
   std::string recipe_hash;
   std::vector<std::string> base_hashes{};
-  std::string files_hash{};  ///< Of the files that the recipe names.
+  std::string files_hash{};  ///< Hash of the files that the recipe names.
   std::uint32_t num_scenarios{};
   StudyFramesRecord frames{};
   std::optional<double> certify{};  ///< Share of the time that certificates may take.

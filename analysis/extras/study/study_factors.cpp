@@ -130,7 +130,7 @@ struct Design {
   }
 };
 
-// Of mean 0 and variance 1, so that the information is well-conditioned.
+// Scales to mean 0 and variance 1, so that the information is well-conditioned.
 Eigen::VectorXd Standardized(const Eigen::VectorXd& column) {
   const Eigen::VectorXd centered = column.array() - column.mean();
   const double scale = std::sqrt(centered.squaredNorm() / static_cast<double>(column.size()));

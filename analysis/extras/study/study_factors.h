@@ -36,8 +36,8 @@ struct ObservedGroup {
   std::uint64_t num_detected{};
   std::uint64_t num_decided{};
   std::uint64_t num_in_time{};
-  Moments distance_m;              ///< Of the detections.
-  std::vector<double> detected_m;  ///< Of each approach; 0 without detection.
+  Moments distance_m;              ///< Distances of the detections.
+  std::vector<double> detected_m;  ///< For each approach; 0 without detection.
   /// As `detected_m`, but infinite for approaches that began too near to tell.
   std::vector<double> at_most_m;
   double most_needed_m = std::numeric_limits<double>::quiet_NaN();  ///< To stop; NaN of nothing.
@@ -72,7 +72,7 @@ struct FactorWeight {
   /// Twice the fall of the log-likelihood where the factor is left out of the model.
   double ratio{};
   double p_value = std::numeric_limits<double>::quiet_NaN();  ///< By the chi-squared distribution.
-  double share{};                                             ///< Of the sum of all ratios.
+  double share{};                                             ///< Share in the sum of all ratios.
 };
 
 /// Weighs factors by the likelihood ratio in one logistic regression of hit and miss on the

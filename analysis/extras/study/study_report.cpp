@@ -29,7 +29,7 @@ std::string DrawnText(const std::map<std::string, Json>& drawn) {
   return text;
 }
 
-// Those that were missed first, then by what is to spare, then by their place in the recipe.
+// What was missed is worst, then what has least to spare, then what comes first in the recipe.
 bool IsWorse(const Observation& one, const Observation& other) {
   const auto key = [](const Observation& each) {
     return std::tuple(each.object->is_detected, each.object->spare_m(), each.approach->scenario);

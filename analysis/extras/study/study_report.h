@@ -24,13 +24,13 @@ class ProgramOptions;
 /// What a study knows of one target: of a kind of object in the way, over all approaches.
 struct TargetResult {
   std::string name{};
-  std::string type{};  ///< Of its first object.
+  std::string type{};  ///< Type of its first object.
   ObservedGroup seen{};
-  double least_distance_m = std::numeric_limits<double>::quiet_NaN();  ///< Of the detections.
-  /// Of the distances of detection; NaN with fewer approaches than a fit takes, or where so many
-  /// detect nothing that no distance has that confidence.
+  double least_distance_m = std::numeric_limits<double>::quiet_NaN();  ///< Least of a detection.
+  /// Where 90 % are detected, with a confidence of 95 %; NaN with fewer approaches than a fit
+  /// takes, or where so many detect nothing that no distance has that confidence.
   double d90_95_m = std::numeric_limits<double>::quiet_NaN();
-  DetectionFit fit{};  ///< Of its distances, all are NaN with fewer inspections than it takes.
+  DetectionFit fit{};  ///< Fit of its distances; all NaN with fewer inspections than it takes.
 
   [[nodiscard]] bool has_fit() const { return seen.num >= DetectionFit::kMinTargets; }
 };

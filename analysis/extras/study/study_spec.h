@@ -39,7 +39,7 @@ struct StudySpec {
   DetectSpec detect;
   /// Whose detections are studied; absent = an object is seen by the number of points on it.
   std::optional<ClusterDetectorSpec> detector;
-  std::optional<TrainGauge> gauge;  ///< Of the train, in place of the vehicle's outline.
+  std::optional<TrainGauge> gauge;  ///< The train's gauge, in place of the vehicle's outline.
   /// Names of the factors of the table of verdicts, which the option --table says, not the file.
   /// Empty = those that matter most.
   std::vector<std::string> table;

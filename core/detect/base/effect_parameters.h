@@ -81,7 +81,7 @@ struct alignas(64) TextureLanes {
   float x[kTileSize], y[kTileSize], z[kTileSize];
   /// Added to the numbers of the cells: what of the coordinates is too large for float32.
   std::uint32_t base_x[kTileSize], base_y[kTileSize], base_z[kTileSize];
-  std::uint32_t instance[kTileSize];  ///< Of the object, so that objects of one kind differ.
+  std::uint32_t instance[kTileSize];  ///< The object's, so that objects of one kind differ.
   float variance[kTileSize];          ///< Relative variance of the response of a cell; 0 = none.
 };
 

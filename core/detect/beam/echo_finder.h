@@ -94,14 +94,14 @@ class EchoFinder {
   bool is_sampled_;
   float least_ratio_;
   const Kernels& kernels_;
-  // Of all beams.
+  // For all beams.
   std::vector<Beam> beams_;
   std::vector<Component> components_;
   std::vector<float> range_m_, peak_, inverse_variance_;
   std::vector<Climb> climbs_;
-  // Of climbs side by side, by component and lane.
+  // For climbs side by side, by component and lane.
   std::vector<float> lane_range_m_, lane_peak_, lane_inverse_variance_;
-  // Of one beam.
+  // For one beam.
   EchoWave wave_;
   std::vector<WavePeak> peaks_;
   std::vector<float> samples_;

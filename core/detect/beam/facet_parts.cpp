@@ -28,7 +28,7 @@ constexpr float kFewSubRays = 16.0F;
 // than this multiple of it as good as certain.
 constexpr float kHardlyDetected = 0.7F;
 constexpr float kSurelyDetected = 1.3F;
-// Of so few hits on a surface, none may have met the part of it that faces the sensor.
+// With so few hits on a surface, none may have met the part of it that faces the sensor.
 constexpr float kNumOfAnyStrength = 3.0F;
 // So many cells of sub-rays may be filled with something that none of them meets. With twice as
 // many, a closer look would be taken at two and a half times as many beams of the open line.

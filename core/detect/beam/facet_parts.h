@@ -27,7 +27,7 @@ struct FacetSum {
   std::uint32_t num;
   Facet facet;
   float base_m, range_m, range2_m2;
-  float x, y, z;  ///< Of the directions.
+  float x, y, z;  ///< Components of the directions.
 };
 
 /// The sums of a beam's sub-rays by facet.
@@ -161,7 +161,7 @@ class FacetParts {
   Kernels kernels_;
   BeamRays beam_;
   FacetSums sums_;
-  // Of a closer look: where sub-rays meet surfaces, and those surfaces that are thin.
+  // For a closer look: where sub-rays meet surfaces, and those surfaces that are thin.
   std::map<std::uint32_t, std::vector<BeamPlace>> met_;
   std::vector<ThinSurface> thin_;
   PartBatch batch_;

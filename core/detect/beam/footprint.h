@@ -35,7 +35,7 @@ class SubRayParts {
   Kernels kernels_;
   SubRayPattern pattern_;
   PartBatch batch_;
-  std::array<std::uint32_t, kTileSize> firing_{};  // Of the rays in the batch.
+  std::array<std::uint32_t, kTileSize> firing_{};  // Firings of the rays in the batch.
   std::vector<Component> found_;                   // Responses of the batches so far.
 };
 
@@ -92,7 +92,7 @@ class Footprint {
   std::vector<Component> beam_parts_;       // All parts of one beam, also those that send nothing.
   std::vector<Component> wires_;
   std::vector<Component> components_;  // The parts of one beam that send light back, with wires.
-  std::vector<std::size_t> lanes_;     // Of the beams whose echoes are looked for.
+  std::vector<std::size_t> lanes_;     // Lanes of the beams whose echoes are looked for.
   std::vector<Echo> found_;
   std::array<float, kTileSize> background_{};  // By lane; reflectivity of all that a beam meets.
 };

@@ -27,7 +27,7 @@ double UpperQuantile(double probability) {
 }
 
 constexpr float kWaterIndex = 1.33F;
-constexpr float kCosLevel = 0.98480775F;  // Of 10 deg, the steepest ground on which water stands.
+constexpr float kCosLevel = 0.98480775F;  // 10 deg: the steepest ground on which water stands.
 constexpr float kCos45 = 0.70710678F;     // Snow lies on faces less steep than 45 deg.
 constexpr float kLeastReflected = 1e-5F;  // Weaker images of white surfaces are out of reach.
 

@@ -43,7 +43,7 @@ class TexturedThings {
 
 /// The world's coordinates in a frame, and its things.
 struct TextureScene {
-  CellField cells_from_window;     ///< Of the world, without `base`.
+  CellField cells_from_window;     ///< In the world's axes, without `base`.
   std::uint32_t base[3];           ///< What is too large for float32.
   const TexturedThings* things{};  ///< Null = none.
 };

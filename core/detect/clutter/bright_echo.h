@@ -53,7 +53,7 @@ class Ghost {
  private:
   std::uint32_t label_;
   float power_min_;
-  float both_ways_per_m_;  // Of the air.
+  float both_ways_per_m_;  // Extinction of the air.
   float gain_{};           // q over the power ratio; 0 if the effect is off.
   float range_min_m_;
 };
@@ -95,7 +95,7 @@ class Halo {
  private:
   std::uint32_t label_;
   float power_min_;
-  float both_ways_per_m_;  // Of the air.
+  float both_ways_per_m_;  // Extinction of the air.
   float share_at_1_rad_;   // The constant of the law with the angle in radians.
   float same_echo_m_;      // Echoes closer together are one.
   float range_min_m_;

@@ -28,7 +28,7 @@ using EffectObserver = std::function<void(std::string_view effect)>;
 /// The parameters of effect `edge_loss`.
 struct EdgeLossParameters {
   std::uint64_t seed{};
-  float probability{};  ///< Of beams halved by a high edge; 0 = the effect is off.
+  float probability{};  ///< For beams halved by a high edge; 0 = the effect is off.
   float pulse_length_m{};
 };
 

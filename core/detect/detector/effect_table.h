@@ -69,7 +69,7 @@ struct Effect {
   std::string (*text)(const DetectorSpec& spec) = nullptr;
   /// The keys of section `weather` that it reads. `check` reports keys that no effect reads.
   std::vector<std::string_view> weather_keys{};
-  std::vector<EffectLabel> labels{};  ///< Of the echoes that it adds.
+  std::vector<EffectLabel> labels{};  ///< Labels of the echoes that it adds.
   /// Empty if the effect acts elsewhere: in aiming and tracing beams, in the clutter or in the
   /// measurement.
   std::vector<EffectLoop> loops{};

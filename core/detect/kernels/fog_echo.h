@@ -28,7 +28,7 @@ struct FogGroup {
   /// The gates in which a peak can lie: [first_gate, end_gate).
   std::size_t first_gate, end_gate;
   alignas(64) float power[kFogGates][kFogGroup];      ///< Over the least detectable power.
-  alignas(64) float draw[kFogGates + 8][kFogGroup];   ///< That of gate k is at k + 1.
+  alignas(64) float draw[kFogGates + 8][kFogGroup];   ///< The draw of gate k is at k + 1.
   alignas(64) float amplitude[kFogGates][kFogGroup];  ///< The power with the receiver's noise.
 };
 
@@ -233,8 +233,8 @@ inline void PickFogPeaks(const FogEchoParameters& p, const FogGroup& group, FogG
       const float r0 = peaks.range_m[0][i];
       const bool is_first = is_peak & (top > a0);
       if constexpr (kNumPeaks > 1) {
-        // Of two peaks nearer to each other than a pulse, the higher one alone is seen. All peaks
-        // so far are nearer to the sensor than this one.
+        // If two peaks are nearer to each other than a pulse, only the higher one is seen. All
+        // peaks so far are nearer to the sensor than this one.
         const float a1 = peaks.amplitude[1][i];
         const float r1 = peaks.range_m[1][i];
         const bool is_apart = r - r0 >= p.merge_m;

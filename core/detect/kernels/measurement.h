@@ -131,7 +131,7 @@ inline void ApplyMeasurement(DetectTile& tile, const MeasurementParameters& para
     if constexpr (kShape != RangeErrors::kNone) {
       float sigma_m = p.sigma0_m + p.sigma1 * true_range_m;
       if constexpr (kShape == RangeErrors::kSignal) {
-        constexpr float kLeast = 1e-30F;  // Of echoes without a power, that 0 / 0 is not reached.
+        constexpr float kLeast = 1e-30F;  // Avoids 0 / 0 for echoes without power.
         const float ratio = tile.power_ratio[i] > kLeast ? tile.power_ratio[i] : kLeast;
         const float snr = p.snr_at_threshold * ratio;
         sigma_m = std::sqrt(p.sigma0_m * p.sigma0_m + p.scale_m * p.scale_m / (2.0F * snr));

@@ -127,7 +127,7 @@ inline void ApplySpread(const RayTile& rays, const BeamFrame& beam, DetectTile& 
     const float n2 = nx * nx + ny * ny + nz * nz;
     const float slope2 =
         (slope_h * slope_h + slope_v * slope_v) / (axes.length2 * (along * along + 1e-12F * n2));
-    // Of the side that faces the sensor, whichever way the surface is wound.
+    // The normal of the side that faces the sensor, whichever way the surface is wound.
     const float wound_up = nx * b.vertical[0] + ny * b.vertical[1] + nz * b.vertical[2];
     const float up = along > 0.0F ? -wound_up : wound_up;
     tile.spread_m[i] = n2 > 0.0F ? rays.range_m[i] * std::sqrt(slope2) : 0.0F;

@@ -62,7 +62,7 @@ inline void SumWaves(const WaveClimbs& climbs, const float* range_m, WaveSums& s
 /// Where climbs stand.
 struct ClimbState {
   alignas(64) float range_m[kClimbLanes];
-  alignas(64) float value[kClimbLanes];      ///< Of the wave there.
+  alignas(64) float value[kClimbLanes];      ///< The wave's value there.
   alignas(64) float longest_m[kClimbLanes];  ///< The longest step allowed.
   alignas(64) float shift_m[kClimbLanes];    ///< The last step.
   alignas(64) float goes_on[kClimbLanes];    ///< 1, or 0 if it has arrived.

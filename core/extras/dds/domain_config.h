@@ -16,7 +16,7 @@ struct InterfaceAddress {
   [[nodiscard]] bool is_ipv6() const { return address.find(':') != std::string::npos; }
 };
 
-/// Those of all interfaces that are up, IPv4 first; of IPv6 without those of a link.
+/// The addresses of all interfaces that are up, IPv4 first; without link-local IPv6.
 [[nodiscard]] std::vector<InterfaceAddress> InterfaceAddresses();
 
 /// Cyclone DDS's configuration of a domain, as XML. The environment (CYCLONEDDS_URI) adds nothing.

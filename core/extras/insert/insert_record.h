@@ -102,7 +102,7 @@ struct InsertRecord {
   std::string source{};  ///< Name of the recorded file.
   std::string plan_hash{};
   std::uint64_t seed{};
-  std::int64_t time_ns{};  ///< Of the recording.
+  std::int64_t time_ns{};  ///< Time in the recording.
   InsertPoseRecord pose{};
   std::uint64_t added{};
   std::uint64_t removed{};
@@ -110,7 +110,7 @@ struct InsertRecord {
   bool are_points_alone{};
   std::vector<InsertedObjectRecord> objects{};
   std::string split{};        ///< The part of a data set that the recording says the frame is of.
-  std::string source_hash{};  ///< Of the recorded cloud's files.
+  std::string source_hash{};  ///< Hash of the recorded cloud's files.
 };
 void Describe(Archive& a, InsertRecord& s);
 

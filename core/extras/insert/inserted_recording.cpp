@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 /// What all frames of an insertion share.
 struct InsertedContext {
   fs::path directory;
-  LabelTable labels;  ///< Those that objects.jsonl names.
+  LabelTable labels;  ///< The labels that objects.jsonl names.
   LabelTable kitti;   ///< SemanticKITTI's if the clouds have these, else empty.
 };
 
@@ -39,7 +39,7 @@ struct InsertedContext {
 void TakeRows(const std::string& rows, const std::string& place, RecordedFrame& recorded) {
   Frame& frame = recorded.frame;
   std::vector<std::uint32_t> slots = recorded.slot_of_entry;
-  if (slots.empty()) {  // Those of captures.
+  if (slots.empty()) {  // Captures have none.
     for (std::uint32_t slot = 0; slot < frame.num_slots(); ++slot) {
       if (!std::isnan(frame.x[slot])) slots.push_back(slot);
     }

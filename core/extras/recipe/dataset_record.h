@@ -33,8 +33,8 @@ struct DatasetRecord {
   std::string format;
   std::string fields;
   bool is_merged{};
-  std::string files_hash{};         ///< Of the files that the recipe names; empty if it names none.
-  std::string shard{};              ///< "2/7"; empty for a whole data set.
+  std::string files_hash{};  ///< Hash of the files that the recipe names; empty if it names none.
+  std::string shard{};       ///< "2/7"; empty for a whole data set.
   std::optional<double> certify{};  ///< As RunRecord::certify.
   bool is_converted{};  ///< Whether insertions have become sequences, which `dataset` cannot make.
 };
@@ -49,9 +49,9 @@ struct SequenceRecord {
   std::string scenario_hash;
   std::string data_hash;
   std::string manifest_hash;
-  std::vector<double> vehicle_s_m{};  ///< Of each frame, as the next.
+  std::vector<double> vehicle_s_m{};  ///< For each frame, as the next.
   std::vector<double> vehicle_speed_mps{};
-  /// Of a recording into which something was put: the hashes of all files of the scenario.
+  /// If something was put into a recording: the hashes of all files of the scenario.
   std::map<std::string, std::string> files{};
   std::optional<BagRecord> bag{};
   std::string trace{};
@@ -71,8 +71,8 @@ struct ScenarioRecord {
   NamedValues<Json> drawn{};
   Json placed = Json::array();
   Json weather = Json::object();
-  std::optional<std::uint32_t> first_frame{};  ///< Of a plan, in its recording.
-  std::string sensors_hash{};                  ///< Of several sensors: of sensors.json.
+  std::optional<std::uint32_t> first_frame{};  ///< Where a plan begins in its recording.
+  std::string sensors_hash{};                  ///< If there are several sensors: of sensors.json.
   std::vector<SequenceRecord> sequences{};
 };
 void Describe(Archive& a, ScenarioRecord& s);
@@ -116,7 +116,7 @@ void Describe(Archive& a, IndexRecord& s);
 /// The content of manifest.json of a data set or a shard.
 struct DatasetManifestRecord {
   std::string version;
-  std::string shard{};  ///< Of a shard, which has none of the next three.
+  std::string shard{};  ///< "2/7"; a shard has none of the next three.
   std::uint32_t num_scenarios{};
   std::optional<std::uint64_t> num_frames{};
   std::optional<std::uint64_t> points{};

@@ -15,7 +15,7 @@ namespace railcast {
 /// Numbers by name.
 using CountsByName = std::map<std::string, std::uint64_t>;
 
-/// Of a part of the data set.
+/// Counts of a part of the data set.
 struct SplitCountsRecord {
   std::uint64_t scenarios{};
   std::uint64_t frames{};
@@ -23,10 +23,10 @@ struct SplitCountsRecord {
 };
 void Describe(Archive& a, SplitCountsRecord& s);
 
-/// Of the points with a label.
+/// Counts of the points with a label.
 struct LabelCountsRecord {
   std::uint64_t points{};
-  double share{};  ///< Of all points.
+  double share{};  ///< Share of all points.
   std::uint64_t frames{};
 };
 void Describe(Archive& a, LabelCountsRecord& s);
@@ -43,7 +43,7 @@ struct OcclusionCounts : std::array<std::uint64_t, kNumOcclusionBins> {
 };
 void Describe(Archive& a, OcclusionCounts& s);
 
-/// Of the objects of one type. All but `objects` count an object in each frame.
+/// Counts of the objects of one type. All but `objects` count an object in each frame.
 struct TypeCountsRecord {
   std::uint64_t objects{};  ///< Distinct ones.
   std::uint64_t in_frames{};
@@ -61,7 +61,7 @@ struct DatasetReportRecord {
   std::map<std::string, SplitCountsRecord> splits{};
   std::uint64_t frames_without_points{};
   std::uint64_t frames_without_objects{};
-  std::uint64_t duplicate_frames{};  ///< Of frames with the same bytes, all but one.
+  std::uint64_t duplicate_frames{};  ///< Frames that repeat the bytes of another frame.
   FrameCounts counts{};
   std::map<std::string, LabelCountsRecord> labels{};
   std::map<std::string, TypeCountsRecord> objects{};

@@ -16,7 +16,7 @@ namespace railcast {
 
 /// Which scenarios the folder of a data set holds, as its dataset.json says.
 struct DatasetContent {
-  std::uint32_t num_scenarios{};  ///< Of the whole data set.
+  std::uint32_t num_scenarios{};  ///< Scenarios of the whole data set.
   std::string recipe_hash;
   Shard shard;
 

@@ -51,7 +51,7 @@ class DraftedScenario {
     double time_s{};         ///< By the clock of the recording.
   };
   void StartAt(const Start& start) { start_ = start; }
-  /// That of the scenario unless StartAt() was called.
+  /// The scenario's own start unless StartAt() was called.
   [[nodiscard]] Start start() const;
 
   /// Returns what `work` on the scenario that was read returns.
@@ -85,7 +85,7 @@ class DraftedScenario {
   Json json_;
   std::vector<Origin> origins_;
   std::vector<std::string> unread_;  ///< Places whose values name files.
-  const RecordedBase* run_;          ///< Of a plan; null for a scenario.
+  const RecordedBase* run_;          ///< The recording of a plan; null for a scenario.
   std::optional<Start> start_;
 };
 

@@ -51,7 +51,7 @@ Json Overcast(const Draws& draws, double most_klx) {
 }
 
 Json Sunny(const Draws& draws) {
-  constexpr double kIlluminanceAtZenith_klx = 120.0;  // Of clear sky and sun on level ground.
+  constexpr double kIlluminanceAtZenith_klx = 120.0;  // With a clear sky and sun, on level ground.
   const double elevation_deg = draws.Uniform(kElevation, 5.0, 65.0);
   const double share = std::sin(RadFromDeg(elevation_deg));
   const double illuminance_klx = std::round(kIlluminanceAtZenith_klx * share);

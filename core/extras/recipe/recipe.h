@@ -87,12 +87,12 @@ struct RecordingList {
 /// for the same recording are drawn from.
 struct RecipeBase {
   std::string file;          ///< Absolute.
-  RecordingList recordings;  ///< Of a plan; each makes a base.
+  RecordingList recordings;  ///< A plan's recordings; each makes a base.
   double weight = 1.0;
   std::optional<Split> split;  ///< Part of all scenarios on its line; for SplitBy::kLine only.
-  std::optional<Distribution> start_s_m;    ///< Instead of the recipe's.
-  std::string pointer;                      ///< Its place in the recipe: "/bases/0".
-  std::string recording_pointer;            ///< That of its recording: "/bases/0/recordings/1".
+  std::optional<Distribution> start_s_m;  ///< Instead of the recipe's.
+  std::string pointer;                    ///< Its place in the recipe: "/bases/0".
+  std::string recording_pointer;  ///< Where its recording is named: "/bases/0/recordings/1".
   std::shared_ptr<const RecordedBase> run;  ///< The plan and its recording; null for a scenario.
 };
 
@@ -160,7 +160,7 @@ struct Recipe {
   std::filesystem::path file;
   std::uint64_t seed = 1;
   std::uint32_t num_scenarios{};
-  std::uint32_t num_frames = 10;      ///< Of each scenario.
+  std::uint32_t num_frames = 10;      ///< Frames of each scenario.
   std::uint32_t stride = 1;           ///< Every how many-th frame is made.
   std::uint32_t warm_up_frames = 0;   ///< Frames before the first one that is made.
   std::optional<std::string> sensor;  ///< Which one, where scenarios have several.

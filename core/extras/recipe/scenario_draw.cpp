@@ -214,7 +214,7 @@ class OneDraw {
   SeenStretch seen_;
   SeenStretch from_start_;  ///< What is seen from a start at 0, as far as is known.
   std::string line_hash_;
-  std::uint32_t first_frame_ = 0;  ///< Of a plan.
+  std::uint32_t first_frame_ = 0;  ///< Where a plan begins.
 };
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace railcast {
 /// A scenario of a recipe.
 struct DrawnScenario {
   ScenarioSpec scenario;  ///< With the sensors of which frames are made; or a plan.
-  /// Of a plan, the recording that it is for and the frames that it is put into; else null.
+  /// For a plan, the recording that it is for and the frames that it is put into; else null.
   std::shared_ptr<const RecordedBase> run{};
   std::uint32_t first_frame{};
   std::uint32_t num_frames{};

@@ -152,8 +152,8 @@ class Turns {
   std::condition_variable changed_;
   std::uint32_t next_ = 0;
   std::uint32_t num_kept_ = 0;
-  std::map<std::uint32_t, double> shares_;      ///< Of those that are not kept.
-  std::map<std::uint32_t, std::string> lines_;  ///< That wait for those before them.
+  std::map<std::uint32_t, double> shares_;      ///< Shares of the scenarios that are not kept.
+  std::map<std::uint32_t, std::string> lines_;  ///< Lines that wait for those before them.
   bool is_stopped_ = false;
   std::atomic<std::uint32_t> first_fault_ = num_;  ///< `num_` = none.
   std::exception_ptr fault_;

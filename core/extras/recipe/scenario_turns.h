@@ -10,8 +10,8 @@ namespace railcast {
 
 /// What the maker of a scenario is told.
 struct ScenarioTurn {
-  std::uint32_t index{};  ///< Of the scenario: 0, 1, ...
-  int num_threads = 1;    ///< That it may use.
+  std::uint32_t index{};  ///< Index of the scenario: 0, 1, ...
+  int num_threads = 1;    ///< Threads that it may use.
   bool is_alone{};        ///< Whether no other scenarios are made at the same time.
   /// Told the share that is done, in [0, 1], by one thread of the scenario at a time.
   std::function<void(double done)> on_progress;

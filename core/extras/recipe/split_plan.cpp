@@ -32,7 +32,7 @@ struct StartPlace {
 struct BaseGround {
   std::string line_hash;
   std::vector<StartPlace> starts{};  ///< Many draws that are on the line, or all frames.
-  double num_drawn{};                ///< Those that are not on the line included.
+  double num_drawn{};                ///< All draws, also those off the line.
   double seen_m{};                   ///< How much of the line is seen at most.
 };
 

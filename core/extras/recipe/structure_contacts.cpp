@@ -22,7 +22,7 @@ constexpr double kBeyondChunk_m = 10.0;
 // What of an object must be free: its box without what may touch or sink in.
 ConvexBody CoreOf(const Eigen::AlignedBox3d& box_m) {
   constexpr double kTouching_m = 0.05;
-  constexpr double kSunk_m = 0.15;  // Of a car on a ramp.
+  constexpr double kSunk_m = 0.15;  // How deep a car on a ramp sinks in.
   const Vector3 size_m = box_m.sizes();
   const Vector3 sides_m = (0.25 * size_m).cwiseMin(kTouching_m);
   Eigen::AlignedBox3d core_m(box_m.min() + sides_m, box_m.max() - sides_m);

@@ -43,7 +43,7 @@ class StructureContacts {
                                                            double near_s_m);
 
   std::shared_ptr<const RailWorld> world_;
-  std::map<std::uint32_t, std::string> labels_;  ///< Those that count.
+  std::map<std::uint32_t, std::string> labels_;  ///< The labels that count.
   std::map<int, std::vector<Triangle>> chunks_;
 };
 

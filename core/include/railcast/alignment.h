@@ -121,7 +121,7 @@ struct AlignmentSpec {
   /// takes the place of the rule; empty = by the rule.
   std::vector<ChainageValue> cants_mm;
 
-  double gauge_mm = kStandardGauge_mm;  ///< Of all tracks: between the running edges of the rails.
+  double gauge_mm = kStandardGauge_mm;  ///< Between the running edges of the rails, on all tracks.
 
   /// Length (at most) of the clothoids that replace jumps in curvature.
   double curvature_smoothing_m = 20.0;

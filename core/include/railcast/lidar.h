@@ -79,7 +79,7 @@ struct SpinningSpec {
 /// A glass wedge that turns about the sensor's x axis and bends the beams towards its thick side.
 struct PrismSpec {
   double wedge_deg{};         ///< Angle between its two faces, >= 0 and <= 60.
-  double refractive_index{};  ///< Of the glass against air, >= 1 and <= 4.
+  double refractive_index{};  ///< Refractive index of the glass against air, >= 1 and <= 4.
   double turns_hz{};          ///< Turns per second, at most 10,000; positive turns left to up.
   double start_deg{};         ///< Where its thick side is at frame 0's stamp: 0 = left, 90 = up.
 

@@ -21,8 +21,8 @@ struct PointSpec {
 
 /// The trains for which something stands beside a track: it faces them.
 enum class RunningDirection {
-  kRising,   ///< Those that run with rising chainage.
-  kFalling,  ///< Those that run with falling chainage.
+  kRising,   ///< Trains that run with rising chainage.
+  kFalling,  ///< Trains that run with falling chainage.
 };
 template <>
 inline constexpr auto kEnumNames<RunningDirection> = std::to_array<EnumName<RunningDirection>>(
@@ -33,7 +33,7 @@ struct FacingSpec : PointSpec {
   RunningDirection direction = RunningDirection::kRising;
   std::optional<TrackSide> side;     ///< Absent = on the right of those trains.
   std::optional<double> distance_m;  ///< From the track's axis to its middle; absent = by kind.
-  std::optional<double> height_m;    ///< Of its top above top of rail; absent = by kind.
+  std::optional<double> height_m;    ///< Height of its top above top of rail; absent = by kind.
 
   bool operator==(const FacingSpec&) const = default;
 };
@@ -174,9 +174,9 @@ struct BuildingSpec {
   std::string track = "main";
   /// Corners in plan, one after the other: chainage, and distance left of the track's axis.
   std::vector<std::array<double, 2>> footprint_m;
-  double height_m = 6.0;  ///< Of the walls, above the lowest ground at a corner.
+  double height_m = 6.0;  ///< Height of the walls above the lowest ground at a corner.
   RoofKind roof = RoofKind::kFlat;
-  double roof_pitch_deg = 35.0;  ///< Of a gable roof, which covers four corners.
+  double roof_pitch_deg = 35.0;  ///< Pitch of a gable roof, which covers four corners.
   bool has_windows = true;
 
   bool operator==(const BuildingSpec&) const = default;

@@ -192,7 +192,7 @@ class MotionSensors {
   /// Makes the samples in the time of a begun frame: from its stamp on and before the next one's.
   /// @param simulator The one that began the frame, still with the world of the frame.
   [[nodiscard]] MotionSamples Sample(Simulator& simulator, BegunFrame& begun) const;
-  /// As above, of a frame that was not begun.
+  /// The overload for a frame that was not begun.
   [[nodiscard]] MotionSamples Sample(Simulator& simulator, std::uint32_t frame_index) const;
 
  private:

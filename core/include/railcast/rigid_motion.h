@@ -7,8 +7,8 @@ namespace railcast {
 /// Pose and motion of a rigid body at an instant. Velocities and accelerations are in world axes.
 struct RigidMotion {
   Transform world_from_body = Transform::Identity();
-  Vector3 velocity_mps = Vector3::Zero();       ///< Of the body's origin.
-  Vector3 acceleration_mps2 = Vector3::Zero();  ///< Of the body's origin.
+  Vector3 velocity_mps = Vector3::Zero();       ///< Velocity of the body's origin.
+  Vector3 acceleration_mps2 = Vector3::Zero();  ///< Acceleration of the body's origin.
   Vector3 angular_velocity_radps = Vector3::Zero();
   Vector3 angular_acceleration_radps2 = Vector3::Zero();
 

@@ -174,7 +174,7 @@ struct Ros2Spec {
   std::optional<std::uint32_t> domain;  ///< Absent: as ROS_DOMAIN_ID says, or 0.
   std::string interface;                ///< Name or address; empty = loopback.
   ReceiveBuffers receive_buffers = ReceiveBuffers::kUsual;
-  double deceleration_mps2 = 0.5;  ///< Of the vehicle; ROS 2's commands name only a speed.
+  double deceleration_mps2 = 0.5;  ///< The vehicle's; ROS 2's commands name only a speed.
 
   bool operator==(const Ros2Spec&) const = default;
 };
@@ -205,7 +205,7 @@ struct ScenarioSpec {
   OutputSpec output;
   std::vector<Material> materials;  ///< From the material library that the scenario names.
   std::vector<Label> labels;        ///< From the label table that the scenario names.
-  std::vector<ModelSpec> models;    ///< Of the scenario's own table of models, if it has one.
+  std::vector<ModelSpec> models;    ///< From the scenario's own table of models, if it has one.
   std::optional<MotionSensorsSpec> motion_sensors{};
   ScenarioSources sources;  ///< Where all these values were written.
 

@@ -184,7 +184,7 @@ class Simulator {
   /// thread-safe: one caller at a time.
   void Scan(std::uint32_t frame_index, Frame& frame);
 
-  /// As above, but the host traces the scene. Of the world, only the motion of the vehicle is used.
+  /// The overload for hosts that trace. Of the world, only the vehicle's motion is used.
   void Scan(std::uint32_t frame_index, const HostScene& host, Frame& frame);
 
   /// Begins a frame: waits for the stationary geometry around the vehicle, which is built if

@@ -33,7 +33,7 @@ struct SideStretchSpec : StretchSpec {
 struct PlatformRoofSpec {
   std::optional<double> begin_s_m;  ///< Absent = where the platform begins.
   std::optional<double> end_s_m;    ///< Absent = where the platform ends.
-  double height_m = 3.5;            ///< Of its lower side above the platform.
+  double height_m = 3.5;            ///< Height of its lower side above the platform.
   double column_spacing_m = 8.0;    ///< At most.
 
   bool operator==(const PlatformRoofSpec&) const = default;
@@ -42,8 +42,8 @@ struct PlatformRoofSpec {
 /// A platform. Its edge lies in the frame of the track, so that it follows the cant; its top is
 /// level across. In curves, it is farther from the axis (EN 15273-3).
 struct PlatformSpec : SideStretchSpec {
-  double height_m = 0.76;         ///< Of the edge above top of rail.
-  double edge_distance_m = 1.65;  ///< Of the edge from the axis of straight track.
+  double height_m = 0.76;         ///< Height of the edge above top of rail.
+  double edge_distance_m = 1.65;  ///< Distance of the edge from the axis of straight track.
   double width_m = 3.0;
   bool has_edge_strip = true;  ///< Whether a white tactile strip runs along the edge.
   /// Whether its ends are ramps of 1:12, down to 0.08 m below top of rail. They are part of it.
@@ -55,7 +55,7 @@ struct PlatformSpec : SideStretchSpec {
 
 /// A wall against noise: panels between steel posts.
 struct NoiseWallSpec : SideStretchSpec {
-  double distance_m = 3.8;      ///< Of its face from the track's axis.
+  double distance_m = 3.8;      ///< Distance of its face from the track's axis.
   double height_m = 3.0;        ///< Above top of rail.
   double post_spacing_m = 5.0;  ///< At most.
 
@@ -84,16 +84,16 @@ struct FenceSpec : SideStretchSpec {
 /// A wall that holds back the ground behind it, which is as high as the wall's top. Its face leans
 /// away from the track by 1:10.
 struct RetainingWallSpec : SideStretchSpec {
-  double distance_m = 4.0;  ///< Of its face from the track's axis, at top of rail.
+  double distance_m = 4.0;  ///< Distance of its face from the track's axis, at top of rail.
   double height_m = 2.0;    ///< Above top of rail.
-  double depth_m = 1.7;     ///< Of its foot below top of rail.
+  double depth_m = 1.7;     ///< Depth of its foot below top of rail.
 
   bool operator==(const RetainingWallSpec&) const = default;
 };
 
 /// A concrete trough for cables with its lid.
 struct CableTroughSpec : SideStretchSpec {
-  double distance_m = 2.6;  ///< Of its nearer side from the track's axis.
+  double distance_m = 2.6;  ///< Distance of its nearer side from the track's axis.
   double width_m = 0.4;
 
   bool operator==(const CableTroughSpec&) const = default;
@@ -111,8 +111,8 @@ struct TunnelSpec : StretchSpec {
 
 /// A bridge that carries the line over a gap in the ground.
 struct BridgeSpec : StretchSpec {
-  double depth_m = 6.0;           ///< Of the gap's bottom below top of rail.
-  double edge_distance_m = 3.5;   ///< Of its edges from the axes of the outermost tracks on it.
+  double depth_m = 6.0;           ///< Depth of the gap's bottom below top of rail.
+  double edge_distance_m = 3.5;   ///< From its edges to the axes of the outermost tracks on it.
   double deck_thickness_m = 1.0;  ///< Below the ballast.
   double railing_height_m = 1.1;  ///< Above the edge beam; 0 = none.
 
@@ -121,7 +121,7 @@ struct BridgeSpec : StretchSpec {
 
 /// A bridge that carries a road over the line, straight and level.
 struct OverbridgeSpec : StretchSpec {
-  double clearance_m = 6.9;  ///< Of its lower side above top of rail in the middle.
+  double clearance_m = 6.9;  ///< Height of its lower side above top of rail in the middle.
   double deck_thickness_m = 0.9;
   double left_m = 15.0;   ///< Extent to the left of the track's axis.
   double right_m = 15.0;  ///< Extent to the right.
@@ -144,8 +144,8 @@ inline constexpr auto kEnumNames<ContactSide> = std::to_array<EnumName<ContactSi
 /// A conductor rail beside the track, in the plane of the rails.
 struct ThirdRailSpec : SideStretchSpec {
   ContactSide contact = ContactSide::kTop;
-  /// Of its middle from the track's axis, and of its contact surface above top of rail; absent = as
-  /// usual for the contact side.
+  /// Distance of its middle from the track's axis, and height of its contact surface above top of
+  /// rail; absent = as usual for the contact side.
   std::optional<double> distance_m;
   std::optional<double> height_m;
   bool has_shield = true;

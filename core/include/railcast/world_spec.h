@@ -65,9 +65,9 @@ struct TrackSpec {
   std::optional<double> offset_m{};          ///< Lateral, left positive; absent = 0.
   std::vector<ChainageValue> offsets_m{};    ///< Instead of offset_m: offsets by chainage.
   std::vector<AlignmentElement> elements{};  ///< In the plane of chainage and offset.
-  double heading_deg = 0.0;         ///< Of the first element, against the alignment; left positive.
-  double start_s_m = 0.0;           ///< First chainage of the track, unless a turnout gives it.
-  std::optional<double> end_s_m{};  ///< Last chainage of the track; absent = end of the line.
+  double heading_deg = 0.0;  ///< Heading of the first element against the alignment; left positive.
+  double start_s_m = 0.0;    ///< First chainage of the track, unless a turnout gives it.
+  std::optional<double> end_s_m{};     ///< Last chainage of the track; absent = end of the line.
   std::optional<TurnoutSpec> begin{};  ///< Turnout that opens with rising chainage.
   std::optional<TurnoutSpec> end{};    ///< Turnout that opens with falling chainage.
   SleeperType sleeper = SleeperType::kConcrete;
@@ -106,10 +106,10 @@ struct DiamondCrossingSpec {
 /// max_span_m, shorter in curves so that the wire stays within the lateral limit between supports.
 struct CatenarySpec {
   bool enabled = true;
-  double contact_height_m = 5.5;  ///< Of the contact wire above top of rail.
-  double system_height_m = 1.8;   ///< Of the messenger wire above the contact wire at supports.
+  double contact_height_m = 5.5;  ///< Height of the contact wire above top of rail.
+  double system_height_m = 1.8;   ///< Messenger wire above contact wire, at supports.
   double max_span_m = 65.0;
-  double stagger_m = 0.4;  ///< Of the contact wire at supports.
+  double stagger_m = 0.4;  ///< Stagger of the contact wire at supports.
   double dropper_spacing_m = 8.0;
   double mast_distance_m = 3.3;  ///< From the track axis to the face of the mast.
 
@@ -147,7 +147,7 @@ struct TerrainSpec {
   /// Half width of the ground strip. If it is at least the line's tightest radius, the strip is
   /// narrower inside tight curves (core/rail/landform/landform.h).
   double half_width_m = 80.0;
-  double roughness_sigma_m = 0.04;      ///< Of the ground beside the ballast.
+  double roughness_sigma_m = 0.04;      ///< Roughness of the ground beside the ballast.
   double roughness_wavelength_m = 2.0;  ///< Correlation length of the roughness.
   double undulation_sigma_m = 0.6;      ///< Large-scale relief away from the track.
   /// The terrain that the formation is cut into or raised above; at most one of the two. Without

@@ -86,7 +86,7 @@ IpAddress ParseIpv6(const std::string& host, std::string_view whole) {
                    std::string(whole) + ")");
 }
 
-// Of addresses and groups that are the same on every link (RFC 4291, 2.5.6 and 2.7), so that only
+// Whether an address or a group is the same on every link (RFC 4291, 2.5.6 and 2.7), so that only
 // an interface tells which one is meant.
 bool NeedsInterface(const IpAddress& address) {
   const auto& bytes = address.bytes;
@@ -173,7 +173,7 @@ std::string AddressText(const IpAddress& address) {
   }
   if (address.interface == 0) return text.data();
   std::array<char, IF_NAMESIZE> name{};
-  // An interface that has gone has but its number.
+  // An interface that no longer exists has no name, so that its number is shown.
   if (::if_indextoname(address.interface, name.data()) == nullptr) {
     return std::string(text.data()) + "%" + std::to_string(address.interface);
   }

@@ -103,7 +103,7 @@ Tcp::endpoint TcpEndpointOf(const Endpoint& at) {
 struct HttpServer::Parts {
   Answer answer;
   Endpoint at;
-  // Of the server's thread, and of connections that end when the context does.
+  // Used by the server's thread, and by connections that end when the context does.
   OpenConnections open;
   asio::io_context context{1};
   Tcp::acceptor acceptor{context};

@@ -81,8 +81,8 @@ void DescribeKnown(Archive& a, FrameCounts& s);
 struct RecordedScanPose {
   std::uint32_t time_ns{};               ///< Time since the stamp.
   Vector3 position_m = Vector3::Zero();  ///< In the world frame.
-  /// Of the two quaternions for the same rotation, the one nearer to that of the pose before it, so
-  /// that poses in between can be interpolated.
+  /// A rotation has two quaternions; this is the one nearer to that of the pose before it, so that
+  /// poses in between can be interpolated.
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
 
   bool operator==(const RecordedScanPose&) const = default;

@@ -24,7 +24,7 @@ struct MotionFile {
   std::string header;
 };
 
-/// Those of all motion sensors: IMUs, GNSS receivers, odometers.
+/// The names of all motion sensors: IMUs, GNSS receivers, odometers.
 [[nodiscard]] std::vector<MotionFile> MotionFilesOf(const MotionSensorsSpec& spec);
 
 /// The lines of these files for the samples, in their order.

@@ -23,8 +23,8 @@ struct ObjectInFrame {
   std::uint32_t instance{};
   Vector3 size_m = Vector3::Zero();                  ///< Size of its oriented box.
   Transform world_from_box = Transform::Identity();  ///< Centre and axes of its box at the stamp.
-  /// As above, relative to the axes of the frame's points. Where those are left-handed it is the
-  /// pose of the mirrored box, which is again a proper rotation.
+  /// Centre and axes of its box relative to the axes of the frame's points. Where those are
+  /// left-handed it is the pose of the mirrored box, which is again a proper rotation.
   Transform output_from_box = Transform::Identity();
   /// Velocity of the box's centre, mean over the scan.
   Vector3 velocity_world_mps = Vector3::Zero();

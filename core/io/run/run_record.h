@@ -21,7 +21,7 @@ namespace railcast {
 struct InputRecord {
   std::string name;
   std::string hash;
-  /// Of its copy's folder; empty where that is the file's own hash.
+  /// Name of its copy's folder; empty where that is the file's own hash.
   std::string folder{};
 
   bool operator==(const InputRecord&) const = default;
@@ -31,7 +31,7 @@ void Describe(Archive& a, InputRecord& s);
 /// The bag that holds a run's clouds.
 struct BagRecord {
   std::string path;                 ///< Relative to the directory.
-  std::vector<std::string> topics;  ///< Of the clouds.
+  std::vector<std::string> topics;  ///< Topics of the clouds.
   std::string lines{};              ///< Name of the file with its hashes; empty before 1.0.
 
   bool operator==(const BagRecord&) const = default;
@@ -51,7 +51,7 @@ struct RunRecord {
   std::string commands_hash{};  ///< Empty if the run replays none.
   std::string format{};
   std::string
-      fields{};  ///< Of its points, as `--fields` says them; empty if the format has others.
+      fields{};  ///< Its points' fields, as `--fields` says them; empty if the format has others.
   std::optional<BagRecord> bag{};
   std::string trace{};  ///< The OSI trace that has a message for each frame; empty = none.
   std::vector<std::string> motion_sensors{};  ///< Each has a file of samples (MotionFileName()).

@@ -14,8 +14,7 @@ struct InputFile {
   std::string name;   ///< File name without its folder.
   std::string hash;   ///< ContentHash of its bytes.
   std::string bytes;  ///< The whole content.
-  /// Of a mesh that is read with others beside it, and of these: the one hash of them all. Empty =
-  /// the file's own.
+  /// If a mesh is read with others beside it: the one hash of them all. Empty = the file's own.
   std::string folder{};
 
   /// Returns the path under which a sequence directory keeps the file, relative to that directory:

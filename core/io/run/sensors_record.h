@@ -44,7 +44,7 @@ struct SensorRecord {
   std::uint32_t num_frames{};
   std::uint32_t stride = 1;
   MountRecord vehicle_from_sensor{};  ///< By the nominal mount.
-  std::string manifest_hash{};        ///< Of its manifest.json; empty before 1.0.
+  std::string manifest_hash{};        ///< Hash of its manifest.json; empty before 1.0.
 };
 void Describe(Archive& a, SensorRecord& s);
 
@@ -82,7 +82,7 @@ void Describe(Archive& a, MergedPartRecord& s);
 
 /// A line of merged.jsonl.
 struct MergedRecord {
-  std::uint32_t frame{};  ///< Of the first sensor.
+  std::uint32_t frame{};  ///< Frame of the first sensor.
   std::int64_t stamp_ns{};
   KnownFile file;  ///< Relative to the folder.
   std::uint32_t points{};

@@ -34,7 +34,7 @@ void Describe(Archive& a, SurveyedRecord& s);
 /// The content of survey.json.
 struct SurveyRecord {
   std::uint32_t railcast_survey = 1;  ///< Version of the file.
-  std::string version;                ///< Of railcast.
+  std::string version;                ///< Version of railcast.
   std::vector<SurveyedRecord> made_of{};
   std::uint32_t start_frame{};
   std::uint32_t stride{};

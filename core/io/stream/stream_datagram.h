@@ -15,7 +15,7 @@ namespace railcast {
 struct ImageDatagram {
   ImageHead head;
   std::uint32_t bytes_each{};   ///< Bytes in every datagram of the image but the last.
-  std::span<const char> piece;  ///< Of the JPEG file.
+  std::span<const char> piece;  ///< A piece of the JPEG file.
 };
 
 /// Checks all that can be checked of a single datagram of the protocol for images (docs/stream.md):

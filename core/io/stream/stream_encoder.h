@@ -71,8 +71,8 @@ class StreamEncoder final : public FrameEncoder {
   StreamSpec spec_;
   std::optional<Shape> shape_;        ///< Absent: frames have any.
   std::vector<std::uint32_t> cells_;  ///< Cells of the grid in firing order.
-  PointsHead head_;   ///< Of the current frame's datagrams, but for their numbers and points.
-  std::string list_;  ///< Of the fields, behind it.
+  PointsHead head_;   ///< Head of the current frame's datagrams, but for their numbers and points.
+  std::string list_;  ///< List of the fields, which follows the head.
   std::size_t point_size_{};
   std::vector<FieldSource> sources_;  ///< Sources of the current frame.
   std::vector<std::uint32_t> slots_;  ///< Slots to be sent, in firing order.
@@ -83,7 +83,7 @@ struct ImageSending {
   std::uint32_t run{};            ///< Distinguishes this start from others, as in StreamSpec.
   std::uint32_t frame{};          ///< Number of the sensor's frame that has the image's stamp.
   std::int64_t spread_ns{};       ///< Time from the stamp over which the datagrams are spread.
-  std::int64_t clock_ahead_ns{};  ///< Of the stamp that is stated, ahead of the image's.
+  std::int64_t clock_ahead_ns{};  ///< How far the stated stamp is ahead of the image's.
 };
 
 /// Appends the datagrams that carry an image as JPEG, in the railcast protocol for images

@@ -36,7 +36,7 @@ struct PointsHead {
   std::uint16_t header_size{};
   std::uint32_t run{};
   std::uint16_t sensor{};
-  std::uint16_t num_points{};  ///< Of this datagram.
+  std::uint16_t num_points{};  ///< Points of this datagram.
   std::uint32_t frame{};
   std::uint16_t packet{};
   std::uint16_t num_packets{};

@@ -35,8 +35,8 @@ namespace railcast {
 /// A wire on a cantilever.
 struct CantileverWire {
   double y_m{};               ///< Lateral position, left positive.
-  double contact_lift_m{};    ///< Of its contact wire above contact height.
-  double messenger_lift_m{};  ///< Of its messenger above that of a plain wire.
+  double contact_lift_m{};    ///< Lift of its contact wire above contact height.
+  double messenger_lift_m{};  ///< Lift of its messenger above that of a plain wire.
 };
 
 /// What a cantilever carries, in the frame of WorldFromSupport.
@@ -61,7 +61,7 @@ inline constexpr double kAnchoredMessenger_m = 0.4;
 /// Where the wires of a track end a span.
 struct WireEnd {
   double s_m{};
-  Vector3 contact_m;  ///< Of the contact wire, in the world.
+  Vector3 contact_m;  ///< Position of the contact wire in the world.
   double system_height_m{};
 };
 

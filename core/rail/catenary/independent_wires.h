@@ -94,7 +94,7 @@ inline constexpr double kMessengerLift_m = 0.15;
 struct SpanTrial {
   double first_s_m{};
   double last_s_m{};
-  /// Of the tracks that are parallel to the alignment.
+  /// Staggers on the tracks that are parallel to the alignment.
   double first_stagger_m{};
   double last_stagger_m{};
 };
@@ -173,7 +173,7 @@ class IndependentWires {
   double step_m_;
   std::vector<Turnouts> turnouts_;
   std::vector<WireAxis> axes_;
-  std::vector<Own> own_;  ///< Those that branch off others after these.
+  std::vector<Own> own_;  ///< Wires that branch off others come after these.
 };
 
 }  // namespace railcast

@@ -21,12 +21,12 @@ inline constexpr double kMastClearance_m = 2.2;
 struct CantileverSite {
   std::size_t track{};  ///< The first of its tracks.
   double axis_d_m{};    ///< Where the wire of that one hangs (HungWire).
-  double lift_m{};      ///< Of that wire's axis.
+  double lift_m{};      ///< Lift of that wire's axis.
   /// Face of the mast or post: left of that axis or, if `hangs`, of the pantograph's middle.
   double face_m{};
   bool hangs{};  ///< Whether it is on a post below a portal's beam; otherwise it is on a mast.
   std::size_t structure{};      ///< Index of the first of the tracks that share the mast or portal.
-  std::vector<HungWire> wires;  ///< Those that it carries: of tracks less than 3 m apart.
+  std::vector<HungWire> wires;  ///< The wires that it carries: of tracks less than 3 m apart.
   /// Where its room ends on the side away from the face, left of the axis: halfway to the next
   /// tracks, less a post. Infinite if there are none.
   double room_m{};

@@ -148,7 +148,7 @@ std::vector<double> SweepStations(const Alignment& alignment,
     const double axis_per_m = alignment.At(s_m).curvature_per_m;
     const TrackOffset offset = track.OffsetAt(s_m);
     const double stretch = std::hypot(1.0 - axis_per_m * offset.d_m, offset.slope);
-    // That of its height, where it leaves the plane of another track.
+    // The curvature of the track's height, where it leaves the plane of another track.
     const double lift_per_m =
         track.LiftAt(alignment, s_m + 0.5).slope - track.LiftAt(alignment, s_m - 0.5).slope;
     return std::hypot(track.CurvatureAt(alignment, s_m) * stretch * stretch, lift_per_m);

@@ -32,7 +32,7 @@ namespace railcast {
                                                 double tolerance_m,
                                                 double max_step_m);
 
-/// As above, for the axis of a track.
+/// The overload for the axis of a track.
 [[nodiscard]] std::vector<double> SweepStations(const Alignment& alignment,
                                                 const ChainageRange& range,
                                                 const TrackCourse& track,
@@ -69,8 +69,8 @@ void AppendSweep(std::span<const Transform> mesh_from_station,
 /// grid, and nothing opens between the two.
 struct CoarseGrid {
   std::size_t num_rows{};            ///< At least three.
-  std::size_t num_all_columns{};     ///< Of the first and the last row.
-  std::vector<std::size_t> columns;  ///< Of the others, ascending, with the first and the last one.
+  std::size_t num_all_columns{};     ///< Columns of the first and the last row.
+  std::vector<std::size_t> columns;  ///< For others, ascending, with the first and the last one.
 };
 
 /// A point of a grid, and whether it may be seen.

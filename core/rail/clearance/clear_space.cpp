@@ -81,7 +81,7 @@ GaugeClearance ClearanceOf(const std::vector<GaugePart>& gauge,
 double CurveWidening_m(double curvature_per_m, double side) {
   constexpr double kTight_m = 250.0;
   constexpr double kFormulasEnd_m = 150.0;
-  constexpr double kBend_m = 120.0;  // Of the table.
+  constexpr double kBend_m = 120.0;  // Where the table bends.
   constexpr double kAtTight_m = 3.75 / kTight_m;
   struct Side {
     double per_bend_m2, less_m, at_bend_m, at_end_m;

@@ -64,7 +64,7 @@ struct ClearedArea {
 /// of 2 m) and masts.
 [[nodiscard]] std::vector<ClearedArea> ClearedAround(const ClearedArea& outline);
 
-/// As above, of one between two distances from its track's axis.
+/// The areas of a structure between two distances from its track's axis, as ClearedAround().
 [[nodiscard]] std::vector<ClearedArea> ClearedBeside(const SideStretchSpec& structure,
                                                      double near_m,
                                                      double far_m);

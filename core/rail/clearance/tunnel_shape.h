@@ -43,7 +43,7 @@ struct TunnelShape {
   static constexpr double kWalkwayTop_m = 0.0;
   static constexpr double kNicheHeight_m = 2.2;
   static constexpr double kNicheDepth_m = 0.8;   ///< From the wall at the niche's foot.
-  static constexpr double kPortalDepth_m = 1.0;  ///< Of the wall about the mouth, along the line.
+  static constexpr double kPortalDepth_m = 1.0;  ///< Thickness of the wall about the mouth.
 
   TrackSpread spread;
   double radius_m{};

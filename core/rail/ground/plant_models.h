@@ -147,13 +147,13 @@ struct Stem {
 /// How leaves are merged.
 struct LeafMerger {
   std::size_t num = 1;    ///< Leaves that become one.
-  double widening = 1.0;  ///< Of its width; the rest of its area is due to its length.
-  double area = 1.0;      ///< Of the area of all; below 1 for leaves that hide each other less.
+  double widening = 1.0;  ///< Factor of its width; the rest of its area is due to its length.
+  double area = 1.0;  ///< Factor of the area of all; below 1 for leaves that hide each other less.
 };
 
-/// Of leaves that are next to each other, one, enlarged about its centre. Which one is drawn at
-/// equal steps of the sum of their areas, so that they stay as evenly distributed as they were, in
-/// the same directions.
+/// Keeps one of several leaves that are next to each other, enlarged about its centre. Which one is
+/// drawn at equal steps of the sum of their areas, so that they stay as evenly distributed as they
+/// were, in the same directions.
 /// @param leaves Triangles without common corners, the third of which is the tip.
 [[nodiscard]] Mesh MergedLeaves(const Mesh& leaves, const LeafMerger& merger);
 

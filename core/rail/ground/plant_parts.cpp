@@ -79,7 +79,7 @@ Stem Squared(Stem stem) {
 
 struct Sample {
   std::vector<std::size_t> items;
-  double area_m2{};  ///< That each of them stands for.
+  double area_m2{};  ///< Area that each of them stands for.
 };
 
 /// One of every `num` items, which are drawn at equal steps of the sum of their areas: with a
@@ -107,7 +107,7 @@ struct Blade {
 /// How blades of grass are merged.
 struct BladeMerger {
   std::size_t num = 1;  ///< Blades that become one, which is wider.
-  double area = 1.0;    ///< Of the area of all; below 1 for blades that hide each other less.
+  double area = 1.0;  ///< Factor of the area of all; below 1 for blades that hide each other less.
 };
 
 void AddBlade(const Blade& blade, Mesh& grass) {

@@ -21,18 +21,18 @@ constexpr double kFineAcross_m = 0.5;
 constexpr double kFineReach_m = 10.0;
 constexpr double kCoarsening = 1.15;
 constexpr double kCoarsestAcross_m = 2.0;
-/// Of wide ground: where the far part of the grid begins, and its largest cells.
+/// Wide ground: where the far part of the grid begins, and its largest cells.
 constexpr double kFarReach_m = 100.0;
 constexpr double kFarAcross_m = 8.0;
 constexpr double kFarAlong_m = 4.0;
 
-/// Of the coarser forms: the widest cells across. Where ballast may cover them, all are kept.
+/// The coarser forms: the widest cells across. Where ballast may cover them, all are kept.
 constexpr double kWholeReach_m = 3.0;
 /// A shorter roughness would be lost between rows 1 m apart.
 constexpr double kShortWavelength_m = 2.0;
 constexpr double kCoarseNearAcross_m[kMostCoarse] = {1.1, 2.1};
 constexpr double kCoarseGroundAcross_m[kMostCoarse] = {2.1, 4.2};
-/// Of the coarsest form: the distance of its rows.
+/// The coarsest form: the distance of its rows.
 constexpr double kCoarsestAlong_m = 5.0;
 /// Cuttings and embankments need their edges: the lesser cells reach farther there.
 constexpr double kShapedReach_m = 25.0;
@@ -355,8 +355,8 @@ class GroundGrid {
   GroundRise rise_;
   GroundColumns columns_;
   ClearedAreas cleared_;
-  std::vector<CrossingRoad> roads_;  ///< Of level crossings, below which the ground stays.
-  std::size_t first_;                ///< Of the near part.
+  std::vector<CrossingRoad> roads_;  ///< Roads of level crossings, below which the ground stays.
+  std::size_t first_;                ///< First column of the near part.
   std::size_t num_columns_;
 };
 

@@ -23,7 +23,7 @@ inline constexpr double kRetainingThickness_m = 0.4;
 
 /// Heights of the ground at a place, above the formation there.
 struct GroundHeights {
-  double terrain_m{};  ///< Of the land as it was before the line was built.
+  double terrain_m{};  ///< Height of the land as it was before the line was built.
   double built_m{};    ///< With cuttings and embankments, but without walls.
 };
 
@@ -75,7 +75,7 @@ class RetainedGround {
   [[nodiscard]] static double Behind_m(const Wall& wall, double s_m, double d_m);
 
   const ChunkContext* context_;
-  std::vector<Wall> walls_;  ///< Those nearer to their tracks first.
+  std::vector<Wall> walls_;  ///< Walls nearer to their tracks come first.
 };
 
 /// The ground above the tunnels of a world whose terrain has a shape: the terrain, where it is
@@ -95,7 +95,7 @@ class TunnelHills {
 
   /// What a place is to the tunnels.
   enum class Place {
-    kBeside,  ///< Of no concern, or the hill beside a tunnel.
+    kBeside,  ///< Irrelevant, or the hill beside a tunnel.
     kMouth,   ///< Before a mouth, or in it: not to be joined with the ground above.
     kOver,    ///< Above a tunnel or in its lining.
   };
@@ -182,7 +182,7 @@ class GroundRise {
 /// The point of the ground at (s, d) in the chunk's frame: on the surface that AddTerrain samples
 /// at its grid points.
 [[nodiscard]] Vector3 GroundPoint(const ChunkContext& context, double s_m, double d_m);
-/// As above, with the cross-section at `s_m`.
+/// The overload with the cross-section at `s_m`.
 [[nodiscard]] Vector3 GroundPoint(const ChunkContext& context,
                                   const CrossSection& section,
                                   double s_m,

@@ -224,7 +224,7 @@ Hills::Hills(const ReliefSpec& spec, std::uint64_t seed)
       short_wave_(seed, RandomUse::kRelief, 1) {}
 
 double Hills::Height_m(const Eigen::Vector2d& place_m) const {
-  constexpr double kLongShare = 0.9;  // Of the variance.
+  constexpr double kLongShare = 0.9;  // Share of the variance.
   const Eigen::Vector2d at = place_m / spec_.wavelength_m;
   return spec_.sigma_m * (std::sqrt(kLongShare) * long_wave_.At(at.x(), at.y()) +
                           std::sqrt(1.0 - kLongShare) * short_wave_.At(3.0 * at.x(), 3.0 * at.y()));

@@ -76,7 +76,7 @@ class ElevationGrid {
   /// @throws InputError "dem.asc:7: rule (got value)" if the file is no such grid, or one in
   /// degrees.
   explicit ElevationGrid(const std::filesystem::path& file);
-  /// As above, from a file's text.
+  /// The overload for a file's text.
   /// @param shown Name of the file in messages.
   ElevationGrid(std::string_view text, const std::string& shown);
 
@@ -103,8 +103,8 @@ class ElevationGrid {
 
   std::size_t num_columns_{};
   std::size_t num_rows_{};
-  double west_m_{};   ///< Of the middle of the first column.
-  double south_m_{};  ///< Of the middle of the last row.
+  double west_m_{};   ///< Middle of the first column.
+  double south_m_{};  ///< Middle of the last row.
   double dx_m_{};
   double dy_m_{};
   std::vector<double> heights_m_;  ///< Row by row from the south.

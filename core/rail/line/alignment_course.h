@@ -38,7 +38,7 @@ class Cant {
  private:
   PiecewiseLinear height_mm_;  ///< Before averaging.
   double ramp_m_;              ///< Over which it is averaged; 0 if it is not.
-  double spacing_mm_;          ///< Of the rail heads.
+  double spacing_mm_;          ///< Distance of the rail heads.
 };
 
 /// Minimum radius of a line: trams turn at 15 m, and a spline tighter than this is close to a cusp.
@@ -58,7 +58,7 @@ inline constexpr double kSmallestRadius_m = 10.0;
                                       const std::string& pointer,
                                       ErrorList& errors);
 
-/// As above, but linear between the entries and constant behind the last one; 0 without values.
+/// As StepsOf(), but linear between the entries and constant behind the last one; 0 without values.
 [[nodiscard]] PiecewiseLinear LinesThrough(const std::vector<ChainageValue>& values,
                                            double length_m,
                                            const std::string& pointer,

@@ -83,7 +83,7 @@ Eigen::Vector2d WorldFromGeographic(const MapSpec& map, double longitude_deg, do
 Eigen::Vector2d GeographicFromWorld(const MapSpec& map, const Eigen::Vector2d& place_m) {
   constexpr int kMostSteps = 20;
   constexpr double kEnough_m = 1e-6;
-  // Of the differences by which the derivatives are taken. They need not be exact.
+  // Sizes of the differences by which the derivatives are taken. They need not be exact.
   constexpr double kDifference_deg = 1e-4;
   Eigen::Vector2d there_deg(map.longitude_deg, map.latitude_deg);
   const auto world_at = [&](const Eigen::Vector2d& at_deg) {

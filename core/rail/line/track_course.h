@@ -39,7 +39,7 @@ struct TrackOffset {
 /// How much higher than the alignment a track lies at the same chainage.
 struct TrackLift {
   double h_m{};
-  double slope{};  ///< Of h_m against the chainage.
+  double slope{};  ///< Slope of h_m against the chainage.
 };
 
 /// A section of a course.
@@ -119,7 +119,7 @@ class TrackCourse {
   double end_s_m_{};
   std::shared_ptr<const std::vector<CoursePiece>> pieces_;
   TrackOffset at_begin_;  ///< Not of parallel tracks.
-  TrackOffset at_end_;    ///< As above.
+  TrackOffset at_end_;    ///< Not of parallel tracks, either.
   double least_d_m_{};
   double most_d_m_{};
 };
@@ -145,7 +145,7 @@ class TrackLength {
  public:
   /// @pre The course has an end.
   TrackLength(const Alignment& alignment, const TrackCourse& course);
-  /// Of a stretch of the course, whose ends take the place of the track's.
+  /// For a stretch of the course, whose ends take the place of the track's.
   TrackLength(const Alignment& alignment,
               const TrackCourse& course,
               double begin_s_m,
@@ -154,7 +154,7 @@ class TrackLength {
   /// The chainage that lies `length_m` of track from another one, towards rising chainage if it is
   /// positive.
   [[nodiscard]] double MovedFrom(double s_m, double length_m) const;
-  /// Of the track between its beginning and a chainage.
+  /// The length of the track between its beginning and a chainage.
   [[nodiscard]] double UpTo(double s_m) const;
   [[nodiscard]] double total_m() const { return lengths_m_.back(); }
 

@@ -150,7 +150,7 @@ class PathWay {
 /// What paths are made on.
 struct PathGround {
   const Alignment& alignment;
-  double half_width_m{};     ///< Of the ground on either side of the alignment.
+  double half_width_m{};     ///< Half the ground's width, on either side of the alignment.
   const TrackPath& vehicle;  ///< The sensor's vehicle.
   std::int64_t begin_ns{};   ///< When the paths' own time is 0.
 };

@@ -62,8 +62,8 @@ class SpeedProfile {
     double travelled_m{};
     double speed_mps{};
     double acceleration_mps2{};  ///< Constant up to the next corner.
-    double speeding_up_m{};      ///< Of travelled_m.
-    double slowing_down_m{};     ///< Of travelled_m.
+    double speeding_up_m{};      ///< The part of travelled_m with rising speed.
+    double slowing_down_m{};     ///< The part of travelled_m with falling speed.
 
     /// Sets the last two: what was travelled since the corner before counts by its acceleration.
     void CountDistancesSince(const Corner& before);
@@ -74,11 +74,11 @@ class SpeedProfile {
     double time_s{};
     double change_mps2{};
   };
-  /// Those up to `time_s` whose effect on a suspension has not died away.
+  /// The jolts up to `time_s` whose effect on a suspension has not died away.
   [[nodiscard]] std::vector<Jolt> RecentJolts(double time_s) const;
 
   std::vector<Corner> corners_;  ///< The first is at time 0.
-  std::vector<Jolt> dropped_;    ///< Of corners that were dropped, and that of the last change.
+  std::vector<Jolt> dropped_;  ///< Jolts of corners that were dropped, and that of the last change.
   double start_s_m_{};
   double direction_ = 1.0;
 };

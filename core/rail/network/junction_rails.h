@@ -49,7 +49,7 @@ struct TurnoutRail {
   ChainageRange range;
   std::function<double(double s_m)>
       aside_m;  ///< From the rail's place in its track, left positive.
-  std::function<double(double s_m)> width_m;  ///< Of what is left behind the gauge face.
+  std::function<double(double s_m)> width_m;  ///< Width of what is left behind the gauge face.
   bool begins_openly{};  ///< Whether its end at the lower chainage shows and must be closed.
   bool ends_openly{};
 };
@@ -58,7 +58,7 @@ struct TurnoutRail {
 /// are those of common practice (docs/world.md).
 inline constexpr double kFrogFlangeway_m = 0.044;  ///< Between the nose and the wing rails.
 inline constexpr double kCheckFlangeway_m = 0.041;
-inline constexpr double kNoseTipWidth_m = 0.012;  ///< Of the nose where it begins to carry.
+inline constexpr double kNoseTipWidth_m = 0.012;  ///< Width of the nose where it begins to carry.
 inline constexpr double kWingBeyondNose_m = 1.2;
 inline constexpr double kNoseSpread_m =
     0.25;  ///< Where both rails are whole again behind the nose.
@@ -136,7 +136,7 @@ struct TurnoutExtent {
 /// The frog's theoretical point, where the gauge lines of the two inner rails cross.
 struct FrogPoint {
   double through_s_m{};  ///< Chainage of the through track's frame in which it lies.
-  double branch_s_m{};   ///< As above, of the branch.
+  double branch_s_m{};   ///< Chainage of the branch's frame in which it lies.
   double angle_rad{};    ///< Between the two gauge lines.
 };
 
@@ -206,8 +206,8 @@ struct CrossedRailPlaces {
 /// The chainages over which rails are replaced by the pieces of the diamond, and both tracks'
 /// sleepers by long bearers.
 struct DiamondExtent {
-  std::array<ChainageRange, 2> first_rails;   ///< Of the first track: its right and left rail.
-  std::array<ChainageRange, 2> second_rails;  ///< As above, of the second track.
+  std::array<ChainageRange, 2> first_rails;   ///< The first track's right and left rail.
+  std::array<ChainageRange, 2> second_rails;  ///< The second track's right and left rail.
   ChainageRange bearers;
 };
 

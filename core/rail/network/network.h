@@ -34,7 +34,7 @@ struct TurnoutSite {
 struct DiamondSite {
   std::size_t entry{};   ///< Index in WorldSpec::diamond_crossings.
   std::size_t first{};   ///< Index of the track that comes from the right of the other one.
-  std::size_t second{};  ///< As above, from its left, seen towards rising chainage.
+  std::size_t second{};  ///< The track from its left, seen towards rising chainage.
   double s_m{};          ///< Where their axes cross.
   double angle_rad{};    ///< Between the axes there.
   double begin_s_m{};    ///< Between these chainages lie its frogs and check rails.

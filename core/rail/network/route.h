@@ -13,7 +13,7 @@ namespace railcast {
 
 /// A way along tracks, one after the other in the direction of travel, as specified.
 struct RouteSpec {
-  std::string pointer;  ///< Of the list of names, or of the single name.
+  std::string pointer;  ///< Pointer of the list of names, or of the single name.
   std::vector<std::string> tracks;
   bool runs_back{};   ///< Whether it runs towards falling chainage.
   double from_s_m{};  ///< Where it is entered.
@@ -35,7 +35,7 @@ struct RouteSection {
 /// A way along tracks. Its chainage is that of the alignment; at the turnouts it changes tracks.
 struct Route {
   TrackCourse course;
-  std::vector<std::string> names;      ///< Of its tracks, in the direction of travel.
+  std::vector<std::string> names;      ///< Names of its tracks, in the direction of travel.
   std::vector<RouteSection> sections;  ///< In the order of chainage.
   std::vector<RoutePassage> passages;  ///< In no particular order.
 };

@@ -19,7 +19,7 @@ namespace railcast {
 /// main axis at the turnout's beginning and turns by the angle; then it runs straight to the
 /// turnout's end. Both axes are equally long from the point where their tangents meet to the end.
 struct TurnoutGeometry {
-  double radius_m{};   ///< Of the arc of the diverging axis.
+  double radius_m{};   ///< Radius of the arc of the diverging axis.
   double angle_rad{};  ///< atan(1 / n) for a turnout 1:n.
   /// From the beginning to the point where the tangents meet: R tan(angle / 2).
   double tangent_m{};
@@ -38,10 +38,10 @@ struct TurnoutGeometry {
 
 /// A turnout as specified, on a track whose course is known.
 struct TurnoutPlace {
-  std::string pointer;  ///< Of its spec.
+  std::string pointer;  ///< Pointer of its spec.
   TurnoutSpec spec;
   std::size_t track{};
-  TrackCourse course;  ///< Of that track.
+  TrackCourse course;  ///< Course of that track.
   TurnoutGeometry geometry;
   bool opens_ahead{};
 };

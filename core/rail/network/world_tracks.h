@@ -38,7 +38,7 @@ inline constexpr double kMostCantAtCrossing_rad = 1e-3;
 /// which is 1.575 m wide to either side and leans over by 0.18 m at half the lining's height with a
 /// cant of 150 mm.
 inline constexpr double kSharedTunnel_m = 7.4;
-/// As above, a bridge.
+/// Tracks of which one runs this close to the next share a bridge.
 inline constexpr double kSharedBridge_m = 7.0;
 
 /// The axes of the outermost of several tracks, left of the axis of one of them.

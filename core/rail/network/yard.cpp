@@ -43,7 +43,7 @@ struct Ladder {
   /// From where the tangents of a turnout meet to its fouling point, along the track that leads
   /// back.
   [[nodiscard]] double fouling_m() const { return kFoulingDistance_m * cosine / sine; }
-  /// As above, for the last turnout, before whose fouling point the lead may already turn back.
+  /// As fouling_m(), for the last turnout: the lead may turn back before its fouling point.
   [[nodiscard]] double last_fouling_m() const {
     const double below_m = spacing_m - kFoulingDistance_m;
     const double radius_m = turnout.radius_m;

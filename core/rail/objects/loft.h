@@ -17,7 +17,7 @@ struct LoftSection {
   double front_m{};       ///< Half axis towards +x.
   double back_m{};        ///< Half axis towards -x.
   double half_width_m{};  ///< Half axis along y; 0 = the section is a single point.
-  double x_m = 0.0;       ///< Of its centre.
+  double x_m = 0.0;       ///< Position of its centre.
   double exponent = 2.2;  ///< 2 = ellipse; the greater, the closer to a rectangle.
 };
 
@@ -48,7 +48,7 @@ void AddLoft(std::span<const LoftSection> sections,
              Model& model,
              const Transform& model_from_loft = Transform::Identity());
 
-/// As above, in one surface.
+/// The overload for one surface.
 void AddLoft(std::span<const LoftSection> sections,
              int num_sides,
              const SurfaceClass& surface,

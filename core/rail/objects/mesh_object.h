@@ -45,7 +45,7 @@ struct MeshObject {
   std::size_t num_faces{};       ///< In the file.
   std::size_t num_flat{};        ///< Triangles left out because they have no area in float32.
   std::size_t num_cornerless{};  ///< Faces left out for lack of three different corners.
-  std::vector<Remark> remarks;   ///< Of the file's reader.
+  std::vector<Remark> remarks;   ///< Remarks of the file's reader.
   std::size_t num_read{};        ///< Triangles before the mesh was simplified.
   double deviation_m{};          ///< The greatest measured between the two; 0 if it was not.
 };

@@ -146,7 +146,7 @@ std::optional<std::uint16_t> PaintOfLuminance(const MaterialLibrary& library, do
   for (std::size_t i = 0; i < library.materials().size(); ++i) {
     const Material& material = library.materials()[i];
     if (!IsPaintOfColors(material)) continue;
-    // Of black, the logarithm is as far from that of every paint.
+    // The logarithm of black is equally far from that of every paint.
     const double distance = std::abs(std::log(material.reflectivity / std::max(luminance, 1e-6)));
     if (distance >= least) continue;
     least = distance;

@@ -15,7 +15,7 @@ namespace railcast {
 
 /// A material that a name stands for.
 struct NamedMaterial {
-  std::string_view material;  ///< Of scenarios/materials/railway.json.
+  std::string_view material;  ///< A material of scenarios/materials/railway.json.
   std::string_view word;      ///< Which of the words of docs/things.md the name has.
 };
 

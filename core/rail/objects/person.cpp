@@ -140,7 +140,7 @@ void AddPram(const BodyMeasures& body, const PersonSurfaces& surfaces, Model& mo
   AddCarrycot({0.5 * (rear_x_m + front_x_m) + 0.05, 0.0, 0.72}, surfaces, model);
 }
 
-// Of the bicycle of scenarios/models, which is upright beside the person.
+// Places on the bicycle of scenarios/models, which is upright beside the person.
 const Vector3 kLeftGrip_m(0.21, 0.275, 1.06);
 const Vector3 kSaddle_m(-0.36, 0.05, 0.985);
 

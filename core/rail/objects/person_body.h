@@ -70,7 +70,7 @@ struct PersonPose {
   std::array<Limbs, 2> sides;  ///< Left, right.
 };
 
-/// Of the left and of the right side: the sign of y.
+/// The sign of y for the left and the right side.
 inline constexpr std::array<double, 2> kSideSigns = {1.0, -1.0};
 
 [[nodiscard]] constexpr double Radians(double angle_deg) {
@@ -166,7 +166,7 @@ class WalkingGait {
 
  private:
   struct FootPlace {
-    double x_m{}, z_m{};  ///< Of the ankle.
+    double x_m{}, z_m{};  ///< Position of the ankle.
     double pitch_rad{};   ///< Positive: toes up.
   };
   /// `phase` counts cycles from the foot's contact; `share` of a full stride.
@@ -189,7 +189,7 @@ class WalkingGait {
 struct PersonDress {
   SurfaceClass skin;
   SurfaceClass clothing;      ///< Also of hair, sleeves and shoes.
-  SurfaceClass outer;         ///< Of torso and legs.
+  SurfaceClass outer;         ///< Surface of torso and legs.
   SurfaceClass band, helmet;  ///< Only if it wears them.
   /// Whether it has bands round and over the torso and round the legs (EN ISO 20471), and a helmet.
   bool is_hi_vis = false;

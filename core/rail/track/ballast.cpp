@@ -20,11 +20,11 @@ namespace {
 constexpr double kBallastGridAlong_m = kSleeperSpacing_m / 3.0;
 constexpr double kGridAcross_m = 0.16;
 
-/// Of the coarser forms: the widest cells across, and how far their mean height may deviate.
+/// The coarser forms: the widest cells across, and how far their mean height may deviate.
 constexpr double kCoarseBallastAcross_m[kMostCoarse] = {3.1 * kGridAcross_m, 6.1 * kGridAcross_m};
 constexpr double kCoarseBallastTolerances_m[kMostCoarse] = {0.005, 0.05};
 
-/// Of the coarsest form: the distance of its rows, as a multiple of that of the others.
+/// The coarsest form: the distance of its rows, as a multiple of that of the others.
 constexpr double kCoarsestRows = 15.0;
 
 /// Standard deviation of the heights: sigma_z of docs/physics.md 7.1.

@@ -48,8 +48,8 @@ class CrossSection {
   /// nearest end counts, at the same offset.
   [[nodiscard]] double DistanceFromTracks_m(double d_m) const;
 
-  /// As above, from those of the tracks for which `counts(d of their axis)`; infinite if there are
-  /// none.
+  /// Distance of `d_m` from the axis of the nearest track for which `counts(d of its axis)`;
+  /// infinite if there is none.
   template <class Counts>
   [[nodiscard]] double DistanceFromTracksIf_m(double d_m, const Counts& counts) const {
     double nearest_m = std::numeric_limits<double>::infinity();
@@ -71,7 +71,7 @@ class CrossSection {
     double d_m{};
     double height_m{};
     double cant_rad{};
-    double turn_rad{};  ///< Of its heading from that of the alignment.
+    double turn_rad{};  ///< Turn of its heading from that of the alignment.
     double begin_s_m{};
     double end_s_m{};
     SleeperSeat seat;
@@ -86,10 +86,10 @@ class CrossSection {
 
   Transform chunk_from_axis_;  ///< Level: x along the heading, y left, z up.
   double s_m_;
-  double shift_m_;                      ///< Of rails, sleepers' ends and shoulders (RailShift_m).
-  double sleeper_closeness_;            ///< Of tracks parallel to the alignment.
-  std::vector<TrackHere> tracks_;       ///< From right to left.
-  std::vector<std::size_t> ballasted_;  ///< Those that have ballast.
+  double shift_m_;                 ///< Shift of rails, sleepers' ends and shoulders (RailShift_m).
+  double sleeper_closeness_;       ///< For tracks parallel to the alignment.
+  std::vector<TrackHere> tracks_;  ///< From right to left.
+  std::vector<std::size_t> ballasted_;  ///< Tracks that have ballast.
 };
 
 }  // namespace railcast

@@ -23,7 +23,7 @@ constexpr double kMostAhead_m = 0.20;
 /// Tracks at a chainage that rest on one bearer, or one with a sleeper of its own.
 struct BearerGroup {
   std::vector<std::size_t> tracks;
-  std::vector<double> headings_rad;  ///< Of turnouts and diamonds; none: a sleeper.
+  std::vector<double> headings_rad;  ///< Headings of turnouts and diamonds; none: a sleeper.
   double right_d_m{};
   double left_d_m{};
   SleeperType sleeper{};

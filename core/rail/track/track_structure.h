@@ -51,7 +51,7 @@ struct TrackModels {
   std::shared_ptr<const Model> concrete_sleeper;
   std::shared_ptr<const Model> wood_sleeper;
 
-  /// Of turnouts (track/track_structure.h): bearers from 1.6 m on, each 0.1 m longer.
+  /// The bearers of turnouts (track/track_structure.h), from 1.6 m on, each 0.1 m longer.
   std::vector<std::shared_ptr<const Model>> concrete_bearers;
   std::vector<std::shared_ptr<const Model>> wood_bearers;
   std::shared_ptr<const Model> concrete_plate;

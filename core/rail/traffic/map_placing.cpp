@@ -18,7 +18,7 @@ namespace {
 
 /// The two keys of a place on the map, and what stands under them.
 struct MapPlace {
-  std::string pointer;  ///< Of the first key.
+  std::string pointer;  ///< Pointer of the first key.
   std::string other;    ///< The second key.
   std::optional<Eigen::Vector2d> world_m;
   /// Where it would be if its longitude were its latitude.

@@ -54,11 +54,11 @@ ObjectSpec FrontOf(const TrainSpec& train) {
 struct StandingTrain {
   const std::vector<TrainVehicleSpec>& vehicles;
   std::string vehicles_pointer;
-  std::string place_pointer;  ///< Of the chainage that places it on its track.
-  double s_m{};               ///< That chainage.
-  std::string way_pointer;    ///< Of its track or route.
+  std::string place_pointer;  ///< Pointer of the chainage that places it on its track.
+  double s_m{};               ///< The chainage that places it.
+  std::string way_pointer;    ///< Pointer of its track or route.
   bool runs_back{};
-  double front_s_m{};  ///< Of its foremost buffers.
+  double front_s_m{};  ///< Chainage of its foremost buffers.
 
   [[nodiscard]] double RearOn_s_m(const TrackLength& track) const {
     const double length_m = LengthOf_m(vehicles);
@@ -95,7 +95,7 @@ bool CheckFits(const StandingTrain& train,
   return false;
 }
 
-// Those ahead of the place are checked with the path.
+// Checks the turnouts below the train; those ahead of its place are checked with the path.
 void CheckTurnoutsBelow(const StandingTrain& train,
                         const TracksOfWorld& tracks,
                         const Route& route,

@@ -56,8 +56,8 @@ struct GaugeEntry {
 
 struct StructuresInGauge {
   std::vector<GaugeEntry> entries;
-  /// Of triangles with tracks, which is what it costs: in proportion to the structures, since each
-  /// is compared with the tracks that are near it.
+  /// Comparisons of triangles with tracks, which is what it costs: in proportion to the structures,
+  /// since each is compared with the tracks that are near it.
   std::size_t num_comparisons = 0;
 };
 
@@ -138,14 +138,14 @@ class GaugeProbe {
   const PlatformSpec* platform_;
   std::optional<double> contact_height_m_;
   std::vector<GaugePart> outline_;
-  std::vector<HalfWidth> half_widths_;  ///< Of the clear space.
-  double widest_m_;                     ///< Of both spaces, on straight track.
-  double top_m_;                        ///< Of both spaces.
-  double sharpest_per_m_ = 0.0;         ///< Of the track where it is compared with something.
-  double reach_m_ = 0.0;                ///< Of the spaces from the axis there.
+  std::vector<HalfWidth> half_widths_;  ///< Half-widths of the clear space.
+  double widest_m_;                     ///< Half-width of both spaces on straight track.
+  double top_m_;                        ///< Top of both spaces.
+  double sharpest_per_m_ = 0.0;         ///< Curvature of the track where it is compared.
+  double reach_m_ = 0.0;                ///< Reach of the spaces from the axis there.
   std::size_t num_comparisons_ = 0;
   GaugeEntry entry_;
-  std::set<int> metres_;  ///< Of chainage, with something of it in a space.
+  std::set<int> metres_;  ///< Metres of chainage with something of it in a space.
 };
 
 }  // namespace railcast

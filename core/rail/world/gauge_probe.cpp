@@ -17,7 +17,7 @@ constexpr double kLeastDepth_m = 1e-3;
 constexpr double kLongestPiece_m = 2.0;
 /// Triangles are not divided below this size.
 constexpr double kLeastPiece_m = 0.1;
-/// Of platforms' edges: chords of the platform and of such pieces.
+/// Tolerance of platforms' edges: chords of the platform and of such pieces.
 constexpr double kEdgeTolerance_m = 5e-3;
 /// The edge is looked for within this height; the wall below stands back.
 constexpr double kAboutEdge_m = 0.12;
@@ -178,7 +178,7 @@ std::optional<GaugeEntry> GaugeProbe::Entry(const std::string& name) const {
 
 bool GaugeProbe::IsSurelyOutside(const ProbedCorners& triangle, double length_m) const {
   constexpr double kMargin_m = 1.0;
-  constexpr double kSteepest = 0.1;  // Of gradients and cant.
+  constexpr double kSteepest = 0.1;  // Steepest gradients and cant.
   const auto [rightmost, leftmost] = std::ranges::minmax(triangle, {}, &ProbedCorner::d_m);
   const double reach_m =
       reach_m_ + kMargin_m + length_m + length_m * length_m / alignment_.tightest_radius_m();

@@ -16,7 +16,7 @@ namespace railcast {
 /// A place in a track's axes: where the cross-section that holds it cuts the track, and where it
 /// lies in that cross-section, which is square to the track and canted with it.
 struct PlaceByTrack {
-  double chainage_m{};  ///< That of the alignment, along the route.
+  double chainage_m{};  ///< Chainage of the alignment, along the route.
   double lateral_m{};   ///< From the track's axis in the plane of the rails, left positive.
   double height_m{};    ///< Above top of rail, square to that plane.
 };
@@ -70,7 +70,7 @@ class OwnTrack {
   Alignment alignment_;
   TrackCourse track_;
   std::vector<GaugePart> gauge_;
-  double step_m_{};  ///< Of chainage, from one point of the axis to the next.
+  double step_m_{};  ///< Step of chainage, from one point of the axis to the next.
   /// The points of the axis from the track's begin to its end, and the track's axes there.
   std::vector<Vector3> axis_m_;
   std::vector<Eigen::Matrix3d> world_from_track_;

@@ -267,7 +267,7 @@ const TrackCourse& RailWorld::object_course(std::size_t object) const {
 }
 
 double RailWorld::ObjectChainage_m(std::size_t object, std::int64_t time_ns) const {
-  // That of an object which walks is where its path begins: it does not keep to its track.
+  // An object that walks has the chainage where its path begins: it does not keep to its track.
   return things_->PathOf(object).ChainageAt(time_ns);
 }
 

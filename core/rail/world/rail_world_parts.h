@@ -71,7 +71,7 @@ struct RailWorld::Setting {
   LabelTable labels;
   MaterialLibrary materials;
   std::shared_ptr<const PlantsOnDemand> plants;
-  std::optional<Ride> ride;  ///< Of the sensor's vehicle.
+  std::optional<Ride> ride;  ///< The ride of the sensor's vehicle.
   bool is_known_line{};      ///< Whether a world before has the line.
 
   [[nodiscard]] bool has_plants() const {
@@ -102,7 +102,7 @@ struct LineKey {
   RailSurfaces surfaces;
   std::uint64_t seed{};
   std::vector<TurnoutPosition>
-      positions;  ///< Of all turnouts, of which the vehicle's route has a say.
+      positions;  ///< Positions of all turnouts; the vehicle's route has a say.
 
   bool operator==(const LineKey&) const = default;
 };

@@ -171,7 +171,7 @@ std::optional<double> MostPivotDistance_m(const WorldSpec& world,
 /// A rail vehicle that is given by its type.
 struct TypedVehicle {
   ObjectType type{};
-  std::string pointer;  ///< Of its type.
+  std::string pointer;  ///< Pointer of its type.
 };
 
 void CheckPivotsOf(const TypedVehicle& vehicle, std::optional<double> most_m, WorldFaults& faults) {

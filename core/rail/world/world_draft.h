@@ -35,13 +35,13 @@ struct WorldDraft {
   NetworkDraft network;
   std::optional<RailSurfaces> surfaces;
   std::optional<TrackPath> vehicle_path;
-  /// Those of the objects of the world, then the vehicles of its trains.
+  /// The paths of the objects of the world, then of the vehicles of its trains.
   std::vector<ObjectPath> object_paths;
   std::vector<SceneObject> objects;
   std::optional<CatenaryPlan> catenary_plan;
   std::optional<StripWidth> strip_width;
   std::optional<DemHeights> elevation;          ///< If the spec has any.
-  std::shared_ptr<const SurveyedScene> survey;  ///< Likewise.
+  std::shared_ptr<const SurveyedScene> survey;  ///< If the spec has any.
 };
 
 /// Makes every part that can be made and adds all faults found in doing so. Values that `faults`

@@ -29,7 +29,7 @@ struct ConvertChoices {
 /// How far a conversion has got: in frames or, of a data set, in scenarios.
 struct ConvertResult : RunResult {
   std::uint32_t num{};
-  Losses lost{};  ///< Of a complete one: what the format has no place for.
+  Losses lost{};  ///< If it is complete: what the format has no place for.
 };
 
 /// The formats that recordings are converted to.

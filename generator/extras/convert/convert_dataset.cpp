@@ -115,7 +115,7 @@ class DatasetConversion {
     for (SequenceRecord& sequence : record.sequences) {
       ConvertChoices choices = choices_;
       choices.recording /= sequence.folder;
-      // Of an insertion, the recording into which things were put stands in a folder of its own.
+      // The recording into which an insertion put things stands in a folder of its own.
       const bool is_insertion = !sequence.files.empty();
       if (is_insertion) {
         sequence.folder = SequenceFolderOf(record.scenario);

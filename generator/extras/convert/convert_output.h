@@ -24,8 +24,8 @@ namespace railcast {
 /// A frame of a recording, and its points as they are stored.
 struct SourceFrame {
   RecordedFrame recorded;
-  Cloud cloud;  ///< Of packed points.
-  // Of the message, if the cloud is one:
+  Cloud cloud;  ///< The points as they are packed.
+  // What the message says, if the cloud is one:
   std::string topic{};
   std::optional<ros::Header> header{};
 };
@@ -45,11 +45,11 @@ class SourceFrames {
 
  private:
   std::unique_ptr<Recording> recording_;
-  std::vector<std::filesystem::path> files_;  ///< Of clouds in files.
+  std::vector<std::filesystem::path> files_;  ///< For clouds in files.
   std::string kitti_columns_;
   KittiPoses kitti_;
   std::size_t next_ = 0;
-  std::unique_ptr<bag::BagReader> bag_;  ///< Of clouds in messages.
+  std::unique_ptr<bag::BagReader> bag_;  ///< For clouds in messages.
   std::string bag_series_;
 };
 
@@ -57,7 +57,7 @@ class SourceFrames {
 struct SourceSurvey {
   InsertRange range;
   SourceFrame first;  ///< Says what the recording has.
-  // Of a data set's format alone, which needs it:
+  // Known only for the format of a data set, which needs it:
   bool has_poses = true;    ///< Whether all frames have one.
   bool has_stamps = false;  ///< Whether the stamp of any is not 0.
 };
@@ -66,7 +66,7 @@ struct SourceSurvey {
 struct ConvertedFrame {
   std::vector<FrameFile> files;
   std::vector<std::string> lines;           ///< One for each of FolderOutput::LineFiles().
-  std::vector<ros::TopicMessage> messages;  ///< Of bags.
+  std::vector<ros::TopicMessage> messages;  ///< For bags.
   ConvertRecord record;
 };
 

@@ -229,7 +229,7 @@ std::vector<std::string> ChosenFields(const std::string& fields,
                      Join(there, ", ", ShownText) + " (got " + ShownText(wanted.back()) + ")");
   }
   for (const char* axis : {"x", "y", "z"}) {
-    // Those of other software may be capitals.
+    // Other software may write capitals.
     if (std::ranges::find(wanted, axis, LowerCase) != wanted.end()) continue;
     throw InputError("--fields: must contain x, y and z (got " + ShownText(fields) + ")");
   }
@@ -256,7 +256,7 @@ Cloud CloudFor(const FrameFormat& format,
   for (const CloudField& field : source.cloud.fields) {
     const std::string name(field.plain_name());
     if (!names.empty() && std::ranges::find(names, name) == names.end()) continue;
-    // Of several fields of one name, the first counts.
+    // If several fields have one name, the first counts.
     if (Holds(format, field) && source.cloud.Find(name) == &field) {
       held.push_back(field);
     } else {

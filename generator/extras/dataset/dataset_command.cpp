@@ -73,7 +73,7 @@ bool WriteScenarios(const Recipe& recipe,
   return true;
 }
 
-// As above, in an empty folder, which is empty again if they are not all written.
+// Makes the scenarios in an empty folder, which is empty again if they are not all written.
 int RunScenarios(const Recipe& recipe, const DatasetOptions& options) {
   const ScenarioDrawer drawer(recipe);
   const FolderLock lock = LockEmptyFolder(options.choices.directory);

@@ -20,7 +20,7 @@ namespace railcast {
 struct DatasetSpec {
   std::filesystem::path directory;
   std::string recipe;    ///< Its text.
-  DatasetRecord record;  ///< Of the whole data set.
+  DatasetRecord record;  ///< The record of the whole data set.
   Shard shard;
 };
 

@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 8> kHashedFiles = {
     kDatasetFile, kRecipeFile,    kScenariosFile, kIndexFile,
     kReportFile,  kSplitFiles[0], kSplitFiles[1], kSplitFiles[2]};
-/// Those of a shard.
+/// The files of a shard that have hashes.
 constexpr std::array<std::string_view, 3> kHashedFilesOfShard = {kDatasetFile, kRecipeFile,
                                                                  kScenariosFile};
 
@@ -88,7 +88,7 @@ PerPart<std::uint32_t> WriteDatasetFiles(const DatasetSpec& spec) {
   NewFile index(directory / kIndexFile);
   std::vector<NewFile> splits;
   for (const std::string_view name : kSplitFiles) splits.emplace_back(directory / name);
-  // Of a scenario, nothing else stays in memory.
+  // Nothing else of a scenario stays in memory.
   std::string hashes;
   PerPart<std::uint32_t> parts{};
   ScenarioLines lines(directory / kScenariosFile, spec.shard);

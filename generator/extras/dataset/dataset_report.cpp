@@ -158,7 +158,7 @@ void DatasetReport::AddObject(const IndexObjectRecord& object) {
   ++type.by_occlusion[occlusion];
 }
 
-// Of frames with the same bytes, all but one.
+// Counts all but one of the frames with the same bytes.
 std::uint64_t DatasetReport::NumDuplicates() {
   std::ranges::sort(frame_hashes_);
   std::uint64_t num_duplicates = 0;

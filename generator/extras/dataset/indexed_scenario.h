@@ -21,7 +21,7 @@ struct IndexedFrame {
 /// A scenario's line of scenarios.jsonl and the frames of its sequences.
 struct IndexedScenario {
   ScenarioRecord record;
-  std::vector<std::vector<IndexedFrame>> frames;  ///< Of each of `record.sequences`.
+  std::vector<std::vector<IndexedFrame>> frames;  ///< For each of `record.sequences`.
 };
 
 /// Reads a scenario and the records of its sequences.

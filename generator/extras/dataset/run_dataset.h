@@ -26,9 +26,9 @@ struct DatasetChoices : RunChoices {
 
 /// How far a run has got.
 struct DatasetProgress {
-  std::uint32_t num_done{};       ///< Of the shard's scenarios.
-  std::uint32_t num_scenarios{};  ///< Of the shard.
-  double num_beyond{};            ///< Of those that are under way: the sum of their shares.
+  std::uint32_t num_done{};       ///< Scenarios of the shard that are done.
+  std::uint32_t num_scenarios{};  ///< Scenarios of the shard.
+  double num_beyond{};            ///< Sum of the shares of scenarios under way.
 
   /// Share of the shard, in [0, 1].
   [[nodiscard]] double done() const { return (num_done + num_beyond) / num_scenarios; }
@@ -43,8 +43,8 @@ struct DatasetHooks {
 
 struct DatasetResult {
   std::uint32_t num_resumed{};    ///< Scenarios made by an earlier run.
-  std::uint32_t num_done{};       ///< Of the shard's scenarios.
-  std::uint32_t num_scenarios{};  ///< Of the shard.
+  std::uint32_t num_done{};       ///< Scenarios of the shard that are done.
+  std::uint32_t num_scenarios{};  ///< Scenarios of the shard.
   std::uint64_t num_frames{};     ///< Made by this run.
   /// Scenarios of each part, of a whole data set that this run completed.
   std::optional<PerPart<std::uint32_t>> parts;

@@ -64,7 +64,7 @@ class TwistCommands final : public TopicCommands {
   double deceleration_mps2_;
   std::uint64_t num_done_{};
   std::uint64_t num_refused_{};
-  std::string last_fault_;  ///< Of those refused.
+  std::string last_fault_;  ///< The last fault of a refused command.
 };
 
 class StepTopic final : public TopicCommands {
@@ -84,7 +84,7 @@ class StepTopic final : public TopicCommands {
   }
 
   void Acknowledge(const CommandRequest& /*request*/, std::int64_t time_ns) override {
-    // Once the run has begun anew, what was done before is nothing.
+    // After a restart of the run, what was done before does not count.
     if (sent_ns_ && time_ns < *sent_ns_) done_ns_.reset();
     sent_ns_ = time_ns;
     is_stepping_ = false;

@@ -24,7 +24,7 @@ struct RosOutputSpec {
   ros::CloudSpec clouds;
   std::vector<std::size_t> sensors;  ///< Their numbers on the vehicle.
   std::optional<std::string> commands_topic;
-  double deceleration_mps2{};  ///< Of these commands.
+  double deceleration_mps2{};  ///< Deceleration by these commands.
   std::optional<std::string> step_topic;
 };
 
@@ -80,11 +80,11 @@ class RosOutput final : public LiveTopics {
 
   FrameMaker& maker_;
   ros::FrameTopics topics_;
-  RosWriters writers_;  ///< Of topics_.
+  RosWriters writers_;  ///< Writers of topics_.
   std::vector<Sensor> sensors_;
   std::int64_t clock_ahead_ns_{};
   std::unique_ptr<TopicCommands> twists_;  ///< Null where none are heard.
-  std::unique_ptr<TopicCommands> steps_;   ///< Likewise.
+  std::unique_ptr<TopicCommands> steps_;   ///< Null where none are heard, either.
 };
 
 /// Hears commands that nodes of ROS 2 give on a topic of geometry_msgs/msg/TwistStamped.

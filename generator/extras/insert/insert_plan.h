@@ -35,8 +35,8 @@ struct InsertPlan {
   /// When each frame of the recording begins, by the clock of `world`. Frames that have no stamps
   /// follow each other at the sensor's rate.
   std::vector<std::int64_t> frame_times_ns;
-  IntensityScale intensity_scale{};  ///< That of the recording.
-  std::vector<PlacedThing> places;   ///< Of the objects, without the vehicles of trains.
+  IntensityScale intensity_scale{};  ///< The recording's scale.
+  std::vector<PlacedThing> places;   ///< Places of the objects, without the vehicles of trains.
   /// The plan as it was written, with the recording's sensor if it names none.
   ScenarioIdentity identity;
   /// What was found or assumed on the way, each in a sentence for the user.

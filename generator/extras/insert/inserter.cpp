@@ -52,7 +52,7 @@ struct RecordedReturns {
   std::vector<std::uint32_t> first{0};
   std::vector<Screen> screens;
   std::vector<std::uint32_t> slots;
-  std::vector<float> power_kept{};  ///< Of the recorded power, by return; 1 where none is recorded.
+  std::vector<float> power_kept{};  ///< Share of recorded power, by return; 1 if none is recorded.
 };
 
 // The intensity with which a return stands for the power that the receiver has met: less than that
@@ -151,7 +151,7 @@ void FillPhotons(const RecordedFrame& before, InsertedFrame& inserted) {
   const std::vector<float>& known =
       before.foreign[static_cast<std::size_t>(photons - foreign.begin())].values;
   const float of_byte_0 = IntensityOfByte(0);  // How dark these are is not known.
-  std::vector<float> at_1_m;                   // Of intensity 1.
+  std::vector<float> at_1_m;                   // Photons at 1 m of intensity 1.
   for (std::size_t slot = 0; slot < recorded.num_slots(); ++slot) {
     const float range_m = recorded.range_m[slot];
     const float each = known[slot] * range_m * range_m / recorded.intensity[slot];

@@ -37,7 +37,7 @@ class IntensityScaleFinder {
   std::uint64_t num_above_1_ = 0;
   std::uint64_t num_above_100_ = 0;
   float highest_ = 0.0F;
-  float least_ = 0.0F;  ///< Of those above 0; 0 = none.
+  float least_ = 0.0F;  ///< Least intensity above 0; 0 = none.
 };
 
 }  // namespace railcast

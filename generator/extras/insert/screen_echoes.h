@@ -47,7 +47,7 @@ struct LostReturn {
 /// A firing that returns something else than was recorded.
 struct ChangedFiring {
   std::uint32_t firing{};
-  Outcome outcome{};  ///< Of the firing, if it has no returns.
+  Outcome outcome{};  ///< Outcome of the firing, if it has no returns.
   float mixed_share{};
   std::vector<ReturnNow> returns{};  ///< In the order of the slots.
   std::vector<LostReturn> lost{};

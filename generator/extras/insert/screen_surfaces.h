@@ -21,7 +21,7 @@ inline constexpr std::size_t kNumScreenMaterials = 1024;
 /// A frame's surfaces, those of screens last.
 struct ScreenSurfaces {
   std::vector<Surface> all;
-  std::uint32_t first{};     ///< That of the first screen.
+  std::uint32_t first{};     ///< Index of the first screen.
   std::vector<float> alone;  ///< By screen, the intensity of its echo if nothing is beside it.
 };
 

@@ -44,7 +44,7 @@ class DrawnFrame {
       frame_.range_m[slot] = now.range_m;
       frame_.true_range_m[slot] = now.true_range_m;
       frame_.power_ratio[slot] = now.power_ratio;
-      // Of one echo with a recorded return, neither is known.
+      // For one echo with a recorded return, neither is known.
       frame_.label[slot] = now.screen == kNoScreen ? now.label : 0;
       frame_.instance[slot] = now.screen == kNoScreen ? now.instance : 0;
       ++slot;

@@ -156,7 +156,7 @@ struct ScreenedScan::Parts {
     std::uint32_t duration_ns;
     std::uint32_t returns;
     std::vector<std::uint32_t> order;
-    std::vector<std::uint32_t> near;  ///< Those that may meet an object.
+    std::vector<std::uint32_t> near;  ///< Firings that may meet an object.
   };
 
   /// One frame on its way.

@@ -18,7 +18,7 @@ namespace railcast {
 
 /// A frame's firings as they were recorded.
 struct RecordedScan {
-  std::uint32_t index{};       ///< Of the frame; part of every random key.
+  std::uint32_t index{};       ///< Index of the frame; part of every random key.
   std::int64_t stamp_ns{};     ///< On the world's clock.
   const ScanPattern& pattern;  ///< Not every cell need have a firing.
   /// What each firing has returned, in the order of its slots. `surface` is not used.
@@ -102,11 +102,11 @@ class ScreenedCertifier {
                 const ScreenedFrame& made,
                 std::span<const std::uint32_t> near);
 
-  Certifier certifier_;  ///< Of a frame of one firing.
+  Certifier certifier_;  ///< Certifies frames of one firing.
   double
       cost_of_others_{};  ///< What a firing takes that is not traced; in multiples of one that is.
   Frame grid_;            ///< What the firings that are certified meet first.
-  std::vector<std::uint32_t> filled_;  ///< Those of its cells that may not be empty.
+  std::vector<std::uint32_t> filled_;  ///< Cells of the grid that may not be empty.
 };
 
 }  // namespace railcast

@@ -16,7 +16,8 @@ struct Screen {
   float range_m{};        ///< From where the beam leaves.
   float intensity{};      ///< Reflectance x share of the beam, as recorded.
   bool is_power_known{};  ///< Whether the intensity is that of the recorded power.
-  /// Of the beam that the firing's returns took, as far as is known. The rest of it met nothing.
+  /// The part of the beam that the firing's returns took, as far as is known. The rest of it met
+  /// nothing.
   float share = 1.0F;
   /// How far behind the recorded range rays meet it. Errors of ranges must not hide what stands
   /// close before it.

@@ -205,7 +205,7 @@ std::vector<std::string> OsiTrace::Find() {
       found_ = osi::ReadTrace(UnfinishedTrace(file_));
     }
   } catch (const InputError&) {
-    // Of what cannot be read, nothing is there.
+    // What cannot be read counts as absent.
   }
   std::vector<std::string> hashes;
   for (const osi::TraceMessage& message : found_.messages) hashes.push_back(message.hash);

@@ -15,8 +15,8 @@ namespace railcast::osi {
 
 /// A lidar as each of its messages describes it.
 struct LidarOfView {
-  std::uint64_t sensor_id{};    ///< Of OSI's virtual sensor.
-  std::uint64_t detector_id{};  ///< Of its physical sensor.
+  std::uint64_t sensor_id{};    ///< Id of OSI's virtual sensor.
+  std::uint64_t detector_id{};  ///< Id of its physical sensor.
   /// From the sensor to OSI's vehicle frame, which has its origin in the middle of the rear axle.
   Transform rear_from_sensor = Transform::Identity();
   const ScanPattern* pattern{};

@@ -73,7 +73,7 @@ void WriteCorrectionBeside(const SensorStreamSpec& stream, const LidarSpec& lida
   if (!stream.pcap || stream.protocol != Protocol::kAt128) return;
   std::filesystem::path file = *stream.pcap;
   file.replace_extension(".dat");
-  // That the scan is one of these was checked when its stream was made.
+  // When the stream was made, it was checked that the scan is one of these.
   const std::string bytes = ReadFileWhole(std::get<FiringTableSpec>(lidar.scan.pattern).file);
   if (std::filesystem::exists(file) && ReadFileWhole(file) != bytes) {
     throw InputError(ShownPath(file) +

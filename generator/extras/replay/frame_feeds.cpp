@@ -132,7 +132,7 @@ bool FrameSource::Load() {
   try {
     after = Read();
   } catch (const InputError&) {
-    // Of a recording that cannot be replayed nothing is sent, of a damaged one what is whole.
+    // Nothing is sent of a recording that cannot be replayed; of a damaged one, what is whole.
     if (!frame_) throw;
     fault_ = std::current_exception();
   }

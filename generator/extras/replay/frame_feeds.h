@@ -33,7 +33,7 @@ class FrameSource {
   FrameSource(std::unique_ptr<Recording> recording, const FrameReplaySpec& spec);
 
   [[nodiscard]] const RecordingInfo& info() const { return recording_->info(); }
-  /// Of the sensor, or "lidar" if it is not known.
+  /// Name of the sensor, or "lidar" if it is not known.
   [[nodiscard]] std::string name() const;
 
   /// The first frame, before Load().
@@ -42,7 +42,7 @@ class FrameSource {
   /// @throws InputError if it cannot be read, or if it has the stamp of the frame before it.
   [[nodiscard]] bool Load();
 
-  // Of the loaded frame:
+  // What belongs to the loaded frame:
   /// With its stamp as it is to be stated.
   [[nodiscard]] const RecordedFrame& StampedFrame();
   [[nodiscard]] std::int64_t begin_ns() const { return begin_ns_; }
@@ -137,7 +137,7 @@ class TopicFrameFeed final : public FrameFeed {
 
  private:
   ros::CloudSpec clouds_;
-  std::uint32_t num_clouds_;  ///< Of a frame.
+  std::uint32_t num_clouds_;  ///< Clouds of a frame.
   std::string frame_id_;
   std::unique_ptr<RosWriters> writers_;
   std::string place_;

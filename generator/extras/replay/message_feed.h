@@ -71,7 +71,7 @@ class MessageFeed final : public ReplayFeed {
   std::string name_;
   std::unique_ptr<bag::BagReader> bag_;
   std::vector<dds::TopicSpec> topics_;
-  std::vector<std::size_t> topic_of_;  ///< Of each topic of the bag; its index in topics_.
+  std::vector<std::size_t> topic_of_;  ///< For each topic of the bag; its index in topics_.
   std::string left_out_;               ///< Names of topics.
   std::optional<std::size_t> points_;  ///< The topic that ends frames.
   ReplayTimes times_;

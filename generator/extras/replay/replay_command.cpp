@@ -62,8 +62,8 @@ DatagramPlace FindPackets(const ReplayOptions& options) {
   }
   throw InputError(
       ShownPath(options.recording) +
-      ": must be a capture or a bag's topic of a sensor's packets for protocol packets (got "
-      "neither); railcast and ros2 send frames");
+      ": must be a capture or a bag with a sensor's packets if --protocol is packets (got "
+      "neither); --protocol railcast and ros2 send frames");
 }
 
 std::unique_ptr<ReplayFeed> OpenPackets(const ReplayOptions& options) {

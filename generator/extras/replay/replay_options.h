@@ -20,7 +20,7 @@ inline constexpr const char* kRecordedPackets = "packets";
 /// The options of `railcast-generate replay`.
 struct ReplayOptions : CommandOptions, RosOptions {
   std::filesystem::path recording;
-  SourceChoice choice{};  ///< Of a bag without a topic: all, or the only one.
+  SourceChoice choice{};  ///< For a bag without a topic: all, or the only one.
   /// Plan of what is put into the recording.
   std::optional<std::filesystem::path> insert;
   std::optional<std::string> sensor;    ///< Address in a capture; absent = all sensors.

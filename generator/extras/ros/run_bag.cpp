@@ -91,7 +91,7 @@ class RunBag final : public RunOutput {
   std::int64_t begin_ns_;
   bool is_complete_ = false;
   std::uint64_t num_frames_ = 0;
-  BagLines found_;      ///< Of an interrupted bag.
+  BagLines found_;      ///< Lines of an interrupted bag.
   WholeCommits whole_;  ///< What there is of these.
   std::vector<bag::BagAttachment> attached_;
   std::optional<LineFile> lines_;
@@ -276,7 +276,7 @@ void PlanBag(const std::string& fields, SensorPlan& sensor) {
 
 std::unique_ptr<RunOutput> FindBag(const FrameMaker& maker, const RunPlan& plan) {
   const std::int64_t begin_ns = maker.pattern(0).StampNs(plan.sensors.front().spec.start_frame);
-  // Those of the sensor with most fields; frames leave out what they lack.
+  // The fields of the sensor with most fields; frames leave out what they lack.
   const auto num_fields = [](const SensorPlan& sensor) {
     return sensor.spec.files.fields.names().size();
   };

@@ -27,7 +27,7 @@ constexpr float kLeastLinearity = 0.9F;
 constexpr float kMostScatter = 0.06F;
 /// An isolated point has fewer neighbours within the greatest gap.
 constexpr std::size_t kLeastNeighbors = 4;
-/// Of surfaces whose reflectance is not known.
+/// For surfaces whose reflectance is not known.
 constexpr double kUnknownReflectivity = 0.3;
 /// Below this cosine of incidence, echoes say little about the reflectivity.
 constexpr float kLeastCosine = 0.2F;
@@ -47,7 +47,7 @@ Cell2 CellAt(const Vector3& point_m, double edge_m) {
 struct Spread {
   Eigen::Vector3f mean_m;
   Eigen::Matrix3f axes;         ///< Columns: of least to greatest spread.
-  Eigen::Vector3f variance_m2;  ///< Likewise.
+  Eigen::Vector3f variance_m2;  ///< In the same order.
 
   [[nodiscard]] float linearity() const { return 1.0F - variance_m2[1] / variance_m2[2]; }
   [[nodiscard]] float scatter() const { return variance_m2[0] / variance_m2[2]; }
@@ -109,7 +109,7 @@ struct Axes {
 /// of the sensor, whatever their distance.
 struct Gap {
   float most_m;
-  float spacing_m;       ///< Of the sensor's beams, across them.
+  float spacing_m;       ///< Spacing of the sensor's beams, across them.
   Eigen::Vector3f view;  ///< Towards the sensor; 0 if that is not known.
 
   [[nodiscard]] bool IsBridged(const Eigen::Vector3f& offset_m) const {

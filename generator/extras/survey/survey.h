@@ -34,7 +34,7 @@ struct Survey {
   std::size_t num_voxels = 0;
   std::size_t num_alone = 0;   ///< Voxels without neighbours, left out.
   std::size_t num_moving = 0;  ///< Surfels of things that moved, left out.
-  std::size_t num_linear = 0;  ///< Of the surfels that stay.
+  std::size_t num_linear = 0;  ///< Linear surfels that stay.
   std::size_t num_scattered = 0;
   std::size_t num_surfels = 0;
   std::size_t num_wires = 0;

@@ -92,7 +92,7 @@ class PosesBeside {
     recorded.frame.world_from_sensor = poses_.world_from_sensor[index];
     recorded.has_pose = true;
   }
-  /// Of a recording that has ended.
+  /// Checks the number of frames of a recording that has ended.
   void CheckNumber(std::size_t num_frames) const {
     if (!file_.empty() && num_frames != poses_.world_from_sensor.size()) {
       Refuse(std::to_string(num_frames) + " frames");

@@ -16,7 +16,7 @@ namespace railcast {
 /// How the points of a recording become those of a survey.
 struct SurveySource {
   std::vector<std::filesystem::path> recordings;
-  std::uint32_t first_frame = 0;              ///< Of each recording, counted from 0.
+  std::uint32_t first_frame = 0;              ///< First frame of each recording, counted from 0.
   std::optional<std::uint32_t> num_frames{};  ///< Absent = all that follow.
   std::uint32_t stride = 1;                   ///< Every how many-th of them.
   /// Poses of the sensor in the world, a line of KITTI's for each frame of the one recording;

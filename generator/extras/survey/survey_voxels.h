@@ -32,7 +32,7 @@ struct SurveyVoxel {
   std::uint32_t first_frame = 0;  ///< Counted in the survey.
   std::uint32_t last_frame = 0;
   std::uint32_t num_frames = 0;
-  std::uint16_t label = SurveyLabels::kUnknown;  ///< Of the majority, where there is one.
+  std::uint16_t label = SurveyLabels::kUnknown;  ///< Label of the majority, where there is one.
   std::uint16_t label_lead = 0;
 };
 

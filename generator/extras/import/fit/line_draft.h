@@ -24,7 +24,7 @@ class LineDraft {
     std::size_t first{};  ///< Plateau of the line.
     std::size_t last{};
     PlanWindow window;
-    std::vector<std::size_t> points;  ///< Those of the window, by their numbers on the line.
+    std::vector<std::size_t> points;  ///< Points of the window, by their numbers on the line.
   };
   /// The part from the middle of plateau `first`, or the beginning of the line, to the middle of
   /// plateau `last`, or the end of the line.
@@ -57,7 +57,7 @@ class LineDraft {
   const LinePrior& prior_;
   std::vector<double> along_m_;  ///< Distance of each point along the points.
   PlanModel plan_;
-  std::vector<double> feet_m_;  ///< Of those points that the plan reaches by now.
+  std::vector<double> feet_m_;  ///< Feet of the points that the plan reaches by now.
   std::size_t num_feet_ = 0;
 };
 

@@ -18,7 +18,7 @@ namespace {
 /// asks for ln(number of points), some 6; mapped points err together, and half as many elements
 /// explain them nearly as well.
 constexpr double kPrice = 10.0;
-/// Of points, in units of sigma: within it an element explains them.
+/// Distance of points, in units of sigma, within which an element explains them.
 constexpr double kTolerance = 2.0;
 /// A changed plateau is fitted with this many on either side.
 constexpr std::size_t kReach = 2;
@@ -238,7 +238,8 @@ constexpr double kLeastGain = 0.5;
 void Improve(LineDraft& line, double price_of_flat_arc, const TellShare& tell) {
   std::vector<std::optional<Change>> changes(line.num_plateaus());
   const std::size_t most_changes = 10 * line.num_plateaus() + 100;
-  // Of the first arcs usually one in two is changed, and each change is followed by five searches.
+  // Among the first arcs, usually one in two is changed, and each change is followed by five
+  // searches.
   const double usual_searches = 3.5 * static_cast<double>(line.num_plateaus());
   double num_searches = 0.0;
   const auto search = [&](std::size_t plateau) {

@@ -19,9 +19,8 @@ struct LinePrior {
 
 struct LineFit {
   PlanModel plan;
-  std::vector<double> chainages_m;  ///< Of the points' feet on the line, in their order.
-  /// Of the points from the line, left positive. Before and behind its ends it is the distance from
-  /// these.
+  std::vector<double> chainages_m;  ///< Chainages of the points' feet on the line, in their order.
+  /// The points' distances from the line, left positive; before and behind its ends, from these.
   std::vector<double> offsets_m;
 };
 

@@ -9,7 +9,7 @@ namespace railcast {
 /// Where a point's foot lies on a course.
 struct Foot {
   double s_m{};       ///< Chainage, within the course.
-  double offset_m{};  ///< Of the point, left positive.
+  double offset_m{};  ///< Offset of the point, left positive.
   double beyond_m{};  ///< How far the point lies behind (negative: before) the end of the course.
 };
 

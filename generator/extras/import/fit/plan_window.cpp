@@ -70,7 +70,7 @@ struct Bend {
 /// A straight, arc or clothoid of a plan. Places are relative to the plan's beginning.
 struct Element {
   double begin_m{};
-  Eigen::Vector2d place_m = Eigen::Vector2d::Zero();  ///< Of its beginning.
+  Eigen::Vector2d place_m = Eigen::Vector2d::Zero();  ///< Where it begins.
   double heading_rad{};
   double curvature_per_m{};
   double slope_per_m2{};

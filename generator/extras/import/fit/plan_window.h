@@ -54,7 +54,7 @@ class WindowResiduals {
 
   explicit WindowResiduals(const PlanWindow& window);
 
-  /// Of the window's own plan.
+  /// The parameters of the window's own plan.
   [[nodiscard]] Eigen::VectorXd Parameters() const;
   [[nodiscard]] PlanModel PlanOf(const Eigen::VectorXd& parameters) const;
 
@@ -90,11 +90,11 @@ class WindowResiduals {
   }
 
   const PlanWindow* window_;
-  double longest_m_;                      ///< That the solver may try for an element.
+  double longest_m_;                      ///< The longest element that the solver may try.
   Eigen::Index first_length_;             ///< Parameter of the first element's length.
   std::vector<Eigen::Index> curvatures_;  ///< Parameter of each plateau's curvature; -1: fixed.
   Eigen::Index num_inputs_;
-  mutable std::vector<double> feet_m_;  ///< Of the last evaluation: guesses for the next one.
+  mutable std::vector<double> feet_m_;  ///< Feet at the last evaluation: guesses for the next one.
   mutable std::size_t num_feet_ = 0;    ///< Sought so far.
 };
 

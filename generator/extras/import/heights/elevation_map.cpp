@@ -355,7 +355,7 @@ bool ElevationMap::Covers(const Eigen::Vector2d& place_m) const {
 std::string ElevationGridText(const ElevationMap& elevation, const Eigen::AlignedBox2d& bounds_m) {
   constexpr double kMostGridCells = 1e6;
   constexpr int kNothing = -9999;
-  constexpr double kRounding_m = 1e-3;  // Of a cell that is whole metres, but for its projection.
+  constexpr double kRounding_m = 1e-3;  // For a cell that is whole metres, but for its projection.
   const double cell_m =
       std::ceil(std::max({1.0, elevation.cell_m(), std::sqrt(bounds_m.volume() / kMostGridCells)}) -
                 kRounding_m);

@@ -34,8 +34,8 @@ class ElevationMap {
   [[nodiscard]] bool Covers(const Eigen::Vector2d& place_m) const;
   /// The longer side of a cell in the map's metres, in the middle of the bounds.
   [[nodiscard]] double cell_m() const { return cell_m_; }
-  /// Of the cells that were read, how many have a height that cannot be (IsHeight) and that the
-  /// file does not say to stand for none, such as -32768; and the first of these. They have none.
+  /// How many of the cells that were read have a height that cannot be (IsHeight) and that the file
+  /// does not say to stand for none, such as -32768; and the first of these. They have none.
   [[nodiscard]] std::size_t num_void() const;
   [[nodiscard]] double first_void_m() const;
 

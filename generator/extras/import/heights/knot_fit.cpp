@@ -47,8 +47,8 @@ struct TridiagonalSystem {
 /// One step of the repeated least squares; weights come from the heights before it.
 void ImproveHeights(KnotWindow& window, double sigma_m) {
   constexpr double kKept = 1e12;      // Weight of a height that stays.
-  constexpr double kAnywhere = 1e-6;  // Of one that no sample holds.
-  constexpr double kLimit = 1e10;     // Of a gradient's limit, per (1/m)^2 and in units of sigma.
+  constexpr double kAnywhere = 1e-6;  // Weight of a height that no sample holds.
+  constexpr double kLimit = 1e10;     // For a gradient's limit, per (1/m)^2 and in units of sigma.
   constexpr double kHeldAt = 0.9995 * kSteepest;
   std::vector<Knot>& knots = window.knots;
   TridiagonalSystem system(knots.size());

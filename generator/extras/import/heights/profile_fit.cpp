@@ -53,7 +53,7 @@ class ProfileDraft {
           const double lack_m = needed_m - std::abs(knots_[other].s_m - knots_[i].s_m);
           if (lack_m <= worst_lack_m) continue;
           worst_lack_m = lack_m;
-          // Of the two, the one that matters less.
+          // The one of the two that matters less goes.
           worst = is_end || GainWithout(i) >= GainWithout(other) ? i : other;
         }
       }
@@ -146,7 +146,7 @@ class ProfileDraft {
       Remove(best);
       has_removed = true;
       gains.erase(gains.begin() + static_cast<std::ptrdiff_t>(best));
-      // Those whose windows touch the one that was fitted anew.
+      // The knots whose windows touch the one that was fitted anew.
       const std::size_t first = best > 2 * kKnotReach ? best - 2 * kKnotReach : 0;
       for (std::size_t i = first; i < std::min(gains.size(), best + 2 * kKnotReach); ++i) {
         gains[i].reset();
@@ -173,7 +173,7 @@ class ProfileDraft {
   bool MoveAll() {
     constexpr double kLongestStep_m = 64.0;
     constexpr double kShortestStep_m = 1.0;
-    constexpr int kMostMoves = 10;  // Of one knot at one step.
+    constexpr int kMostMoves = 10;  // Most moves of one knot at one step.
     bool has_moved = false;
     for (double step_m = kLongestStep_m; step_m >= kShortestStep_m; step_m *= 0.5) {
       for (std::size_t i = 1; i + 1 < knots_.size(); ++i) {

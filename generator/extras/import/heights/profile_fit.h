@@ -16,7 +16,7 @@ struct HeightSample {
 
 /// What is known about a line's heights apart from its samples.
 struct ProfilePrior {
-  double length_m{};     ///< Of the line; > 0.
+  double length_m{};     ///< Length of the line; > 0.
   double sigma_m = 2.0;  ///< Standard deviation of the samples.
   /// Speed for which the line is built, by chainage. It decides how round changes of gradient are.
   std::function<double(double s_m)> speed_kmph = [](double) { return 80.0; };
@@ -27,7 +27,7 @@ struct Profile {
   double start_z_m{};                           ///< At chainage 0.
   std::vector<ChainageValue> gradients_permil;  ///< At least one; the first at 0.
   double smoothing_m{};  ///< AlignmentSpec::gradient_smoothing_m that these gradients need.
-  /// Of the samples above the profile, in their order.
+  /// Heights of the samples above the profile, in their order.
   std::vector<double> offsets_m;
   /// The smallest radius of a vertical curve as a share of the one that its speed needs; infinite
   /// without any curve.

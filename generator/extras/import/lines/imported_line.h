@@ -25,14 +25,14 @@ struct LineQuality {
   std::size_t num_points{};
   std::size_t num_elements{};
   double length_m{};
-  double median_m{};  ///< Of the points' distances from the line.
+  double median_m{};  ///< Median of the points' distances from the line.
   double p99_m{};
   double largest_m{};
-  /// Of a cubic spline through the points, as they were; 0 if it has a cusp.
+  /// For a cubic spline through the points, as they were; 0 if it has a cusp.
   double tightest_radius_before_m{};
   double tightest_radius_m{};           ///< Infinite if the line is straight.
   double needed_radius_m{};             ///< For the speed at the tightest place.
-  double sign_changes_before_per_km{};  ///< Of the spline's curvature.
+  double sign_changes_before_per_km{};  ///< Changes of sign of the spline's curvature.
   double sign_changes_per_km{};
 };
 
@@ -44,7 +44,7 @@ inline constexpr double kFarthestHeight_m = 20.0;
 /// How well a line's gradients fit its heights.
 struct HeightQuality {
   std::size_t num_points{};
-  double median_m{};  ///< Of the heights' distances from the line.
+  double median_m{};  ///< Median of the heights' distances from the line.
   double p99_m{};
   std::size_t num_far{};  ///< Heights farther off than kFarHeight_m.
   double far_s_m{};       ///< Chainage of the first of them.
@@ -61,8 +61,8 @@ struct ImportedLine {
   AlignmentSpec alignment;
   LineQuality quality;
   std::vector<Contradiction> contradictions;  ///< Points farther away than 1.5 m.
-  std::vector<double> chainages_m;            ///< Of the feet of the TrackLine's nodes.
-  std::vector<double> offsets_m;              ///< Of these nodes, left positive.
+  std::vector<double> chainages_m;            ///< Chainages of the feet of the TrackLine's nodes.
+  std::vector<double> offsets_m;              ///< Offsets of these nodes, left positive.
   double height_sigma_m{};                    ///< ImportOptions::height_sigma_m.
   std::optional<HeightQuality>
       height_quality;  ///< Absent if the line is level for want of heights.
@@ -70,8 +70,8 @@ struct ImportedLine {
 
 struct ImportOptions {
   double sigma_m = 0.3;          ///< Standard deviation of mapped points across the track.
-  double height_sigma_m = 2.0;   ///< Of the heights.
-  double otherwise_kmph = 80.0;  ///< Of running tracks where the map gives no speed.
+  double height_sigma_m = 2.0;   ///< Sigma of the heights.
+  double otherwise_kmph = 80.0;  ///< For running tracks where the map gives no speed.
 };
 
 /// The value a share of the way through ascending ones; 0 if there are none.

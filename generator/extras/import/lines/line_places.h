@@ -23,7 +23,7 @@ namespace railcast {
 struct LineStretch {
   double begin_s_m{};
   double end_s_m{};
-  std::size_t way{};  ///< Of the map: the first of those on it.
+  std::size_t way{};  ///< The first way of the map that is on it.
 };
 
 /// The ways of a line from node to node.
@@ -85,7 +85,7 @@ class WayPlaces {
 struct LinePlace {
   double s_m{};
   double d_m{};        ///< Left positive.
-  std::size_t node{};  ///< Of the line: the one at or before it.
+  std::size_t node{};  ///< The line's node at or before it.
   double beyond_m{};   ///< How far before (negative) or behind the ends of the line.
 };
 
@@ -108,7 +108,7 @@ class LinePlaces {
   PlanModel plan_;
   PlanCourse course_;
   Eigen::AlignedBox2d bounds_m_;
-  std::vector<Eigen::AlignedBox2d> blocks_m_;  ///< Of kBlock steps each.
+  std::vector<Eigen::AlignedBox2d> blocks_m_;  ///< Blocks of kBlock steps each.
 };
 
 }  // namespace railcast

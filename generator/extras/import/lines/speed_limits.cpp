@@ -14,7 +14,7 @@
 namespace railcast {
 namespace {
 
-/// Of tracks with a `service`: sidings, yards, crossovers, spurs.
+/// Speed on tracks with a `service`: sidings, yards, crossovers, spurs.
 constexpr double kService_kmph = 40.0;
 
 /// What a value of `railway` or `usage` usually means.
@@ -35,7 +35,7 @@ constexpr auto kUsualSpeeds = std::to_array<UsualSpeed>({{"tram", 50.0},
 /// Arcs that are flatter hold back no train.
 constexpr double kLeastArc_per_m = 1e-6;
 constexpr double kSpeedStep_kmph = 5.0;
-/// Of the radius that a speed needs: a fitted arc may be that much sharper than the track.
+/// Share of the radius that a speed needs: a fitted arc may be that much sharper than the track.
 constexpr double kLeastShareOfRadius = 0.8;
 
 /// An arc with its clothoids.
@@ -48,7 +48,7 @@ struct SpeedOfArc {
 
 std::vector<SpeedOfArc> ArcsOf(const PlanModel& plan) {
   std::vector<SpeedOfArc> arcs;
-  double middle_s_m = 0.0;  // Of the clothoid before the plateau.
+  double middle_s_m = 0.0;  // Middle of the clothoid before the plateau.
   for (std::size_t i = 0; i < plan.plateaus.size(); ++i) {
     const Plateau& plateau = plan.plateaus[i];
     const double before_m = i > 0 ? plan.clothoids_m[i - 1] : 0.0;
@@ -146,7 +146,7 @@ double UsualSpeed_kmph(const MapTags& tags, double running_kmph) {
 }
 
 double SpeedInArc_kmph(double radius_m) {
-  static const AlignmentSpec rule;  // Of cants.
+  static const AlignmentSpec rule;  // Has the limits of cants.
   constexpr double kWithoutCant_m = 50.0;
   constexpr double kRadiusOfCant_mPerMm = 1.5;
   const double cant_mm =

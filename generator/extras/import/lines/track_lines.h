@@ -20,7 +20,7 @@ struct TrackLine {
 /// A line, or a part of one, that cannot stand.
 struct LeftOutLine {
   TrackLine track;
-  double length_m{};  ///< Of what cannot stand of it.
+  double length_m{};  ///< Length of its part that cannot stand.
   std::string reason;
 };
 

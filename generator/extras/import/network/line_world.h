@@ -27,14 +27,14 @@ struct LeftOut {
   double begin_s_m{};
   double end_s_m{};  ///< The same for what stands at one place.
   std::string reason;
-  /// Of a track the number of its run, of a switch its node, of what stands there its MapThing.
+  /// The number of a track's run, the node of a switch, or the MapThing of what stands there.
   std::size_t source = kUnknownSource;
 };
 
 /// A track of a world and where it comes from.
 struct WorldTrack {
   TrackDraft draft;
-  std::vector<LineStretch> ways;     ///< Of the map, from point to point; they may reach farther.
+  std::vector<LineStretch> ways;  ///< Ways of the map, from point to point; they may reach farther.
   std::size_t run = kUnknownSource;  ///< Its number; none of the line's own track.
   /// Chainages of the map's points beside it, and how far to the left of it they are.
   std::vector<Eigen::Vector2d> off_m{};
@@ -56,7 +56,7 @@ struct MovedTrack {
   std::string name;
   double begin_s_m{};
   double end_s_m{};
-  double most_m{};  ///< Of the points' distances from it.
+  double most_m{};  ///< Greatest distance of the points from it.
 };
 
 /// What a MapThing became, without its name.
@@ -70,8 +70,8 @@ struct SideTrackQuality {
   std::size_t num_tracks{};
   std::size_t num_turnouts{};
   double length_m{};
-  std::vector<double> distances_m;  ///< Of the map's points from their tracks, ascending.
-  std::size_t num_switches{};       ///< Of the map, on tracks; those made are LineWorld::switches.
+  std::vector<double> distances_m;  ///< Distances of the map's points from their tracks, ascending.
+  std::size_t num_switches{};       ///< Mapped ones, on tracks; those made are LineWorld::switches.
   /// From the map's switches to the beginnings of their turnouts, along the line, ascending.
   std::vector<double> shifts_m;
 };

@@ -29,7 +29,7 @@ inline constexpr double kMeeting_m = 50.0;
                                                  const TrackRun& run,
                                                  const RunFit& fit);
 
-/// Of the points of a run that was moved, which are no mapped ones.
+/// Sigma of the points of a run that was moved, which are no mapped ones.
 inline constexpr double kMovedSigma_m = 0.1;
 
 }  // namespace railcast

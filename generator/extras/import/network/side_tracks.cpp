@@ -31,7 +31,7 @@ struct MeetingPoint {
 struct OpenRun {
   TrackRun run;            ///< Where it is made.
   const TrackRun& mapped;  ///< Where the map has it.
-  double sigma_m{};        ///< Of its points.
+  double sigma_m{};        ///< Sigma of its points.
   std::optional<Meeting> begin;
   std::optional<Meeting> end;
 
@@ -414,7 +414,7 @@ class SideTrackSearch {
   bool has_turnouts_;  ///< There are none of other gauges.
   double sigma_m_;
   LineWorld& world_;
-  std::size_t number_{};   ///< Of the run that is being made.
+  std::size_t number_{};   ///< Number of the run that is being made.
   const char* why_not_{};  ///< A track of it cannot have all of its turnouts.
   std::map<std::string, int> num_of_kind_;
   std::vector<MeetingPoint> meetings_;

@@ -34,7 +34,7 @@ struct TrackDraft {
   std::vector<TurnoutSite> turnouts;  ///< At its ends; `branch` is the number of the next track.
   std::vector<double> offsets_m;      ///< At every whole metre of chainage from first_m on.
   int first_m{};
-  std::vector<TrackCrossing> crossings{};  ///< Of tracks before it.
+  std::vector<TrackCrossing> crossings{};  ///< Crossings of tracks before it.
 
   [[nodiscard]] bool Has(double s_m) const {
     return s_m >= course.begin_s_m() && s_m <= course.end_s_m();
@@ -97,7 +97,7 @@ class TrackNetwork {
 
   Alignment alignment_;
   std::vector<Eigen::Vector2d> crossings_m_;
-  PiecewiseLinear curvature_;  ///< Of the line, by chainage.
+  PiecewiseLinear curvature_;  ///< Curvature of the line, by chainage.
   double length_m_;
   StripWidth ground_;
   std::vector<TrackDraft> tracks_;

@@ -20,7 +20,7 @@ constexpr const char* kServiceKey = "import:service";
 /// A part of a map.
 struct OtherWays {
   RailMap map;
-  std::vector<std::size_t> ways;  ///< Of the whole map, in their order.
+  std::vector<std::size_t> ways;  ///< Ways of the whole map, in their order.
 };
 
 /// The ways that a line does not use, all of them running tracks, so that FindLines takes them.

@@ -20,7 +20,7 @@ struct TrackRun {
   std::string kind;  ///< "siding", "yard", "crossover", "spur" or "running".
   /// Chainage and offset of its points, with rising chainage.
   std::vector<Eigen::Vector2d> points_m;
-  std::vector<std::size_t> nodes;  ///< Of the map, one for each point.
+  std::vector<std::size_t> nodes;  ///< Nodes of the map, one for each point.
   std::vector<LineStretch> ways;   ///< From point to point.
   /// From point to point: that of the map or else the usual one of its kind, but no more than its
   /// curves allow.
@@ -40,7 +40,7 @@ struct UnusedStep {
   WayStep step;
   const char* reason{};
   std::string kind{};   ///< As of a run.
-  ChainageRange s_m{};  ///< Of those of its ends that are beside the line.
+  ChainageRange s_m{};  ///< Chainages of its ends that are beside the line.
 };
 
 /// What of a map's tracks runs beside a line, and what there does not.

@@ -16,7 +16,7 @@ namespace railcast {
 /// A node of the map at which tracks part.
 struct SwitchNode {
   std::size_t node{};
-  std::size_t num_ways{};  ///< That lead from it: 3 from a switch, 4 from a crossing or slip.
+  std::size_t num_ways{};  ///< Ways that lead from it: 3 from a switch, 4 from a crossing or slip.
   Eigen::Vector2d place_m = Eigen::Vector2d::Zero();  ///< Chainage and offset, beside a line.
   bool is_at_end{};  ///< Within a metre of an end of the line, where no turnout can be.
 };
@@ -25,7 +25,7 @@ struct SwitchNode {
 /// are tagged so.
 [[nodiscard]] std::vector<SwitchNode> SwitchesOf(const RailMap& map);
 
-/// Those beside a line or a metre beyond its ends, by chainage.
+/// The switches beside a line or a metre beyond its ends, by chainage.
 [[nodiscard]] std::vector<SwitchNode> FindSwitches(const RailMap& map,
                                                    const LinePlaces& places,
                                                    double farthest_m);
@@ -33,7 +33,7 @@ struct SwitchNode {
 /// Where a run of the map meets a track at one of its ends.
 struct Meeting {
   std::size_t track{};
-  double s_m{};  ///< Of the run's last point there.
+  double s_m{};  ///< Chainage of the run's last point there.
   bool opens_ahead{};
 };
 
@@ -62,10 +62,10 @@ struct RunFit {
 struct TurnoutChoice {
   TurnoutSpec spec;
   PlanPoint behind;      ///< The end of its branch, heading towards rising chainage.
-  double track_slope{};  ///< Of the track in which it lies.
+  double track_slope{};  ///< Slope of the track in which it lies.
   double off_cost{};     ///< How far it lies from the map, and from what the speed asks for.
   double join_m{};       ///< Length of the fit at which the track follows it.
-  double join_cost{};    ///< Of the two arcs between.
+  double join_cost{};    ///< Cost of the two arcs between.
   bool has_join = false;
 };
 

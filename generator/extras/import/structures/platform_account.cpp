@@ -20,7 +20,7 @@ namespace {
 /// A segment of a way.
 struct Segment {
   std::size_t way{};
-  double along_m{};  ///< Of its beginning.
+  double along_m{};  ///< Where it begins.
   Eigen::Vector2d from_m;
   Eigen::Vector2d step_m;
 };
@@ -55,7 +55,7 @@ class SegmentGrid {
     }
   }
 
-  /// Those within kFarthest_m of a place, and others; long ones several times.
+  /// The segments within kFarthest_m of a place, and others; long ones several times.
   [[nodiscard]] std::vector<Segment> About(const Eigen::Vector2d& place_m) const {
     static_assert(0.5 * kSquare_m + kFarthest_m <= kSquare_m);
     std::vector<Segment> segments;
@@ -216,7 +216,7 @@ class PlatformAccount {
   const WorldsOfMap& made_;
   const std::vector<std::vector<LedgerEntry>>& tracks_;  ///< What became of each way.
   SegmentGrid segments_;
-  std::vector<std::set<std::size_t>> worlds_of_;  ///< Of each way, those with tracks of it.
+  std::vector<std::set<std::size_t>> worlds_of_;  ///< For each way, the worlds with tracks of it.
   std::deque<LinePlaces> places_;
 };
 

@@ -250,7 +250,7 @@ std::optional<std::string> MakeStand(const AlignmentSpec& alignment,
       const std::string reason =
           "it " + fault.rule + (fault.value.empty() ? "" : " (got " + fault.value + ")");
       const auto crossing = ItemOf(fault.place, "/world/diamond_crossings/");
-      // Of a crossing, the track goes that came last.
+      // At a crossing, the track that came last goes.
       const auto track = crossing ? TrackNamed(world, world.crossings[*crossing].tracks.back())
                                   : ItemOf(fault.place, "/world/tracks/");
       const auto structure = ItemOf(fault.place, "/world/structures/");

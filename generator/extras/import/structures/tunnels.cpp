@@ -26,7 +26,7 @@ constexpr double kWider_m = 1.0;
 /// the lining, and one that runs at the limit does not change rows at every metre.
 constexpr double kStays_m = 0.3;
 constexpr double kSame_m = 0.005;
-/// Of offsets, which are linear between whole metres here.
+/// Rounding of offsets, which are linear between whole metres here.
 constexpr double kRounding_m = 0.01;
 
 /// Tracks beside each other, from right to left, between two chainages.

@@ -41,7 +41,7 @@ class WayLedger {
   [[nodiscard]] std::vector<LedgerEntry> Of(std::size_t way, const std::string& otherwise) const;
 
  private:
-  std::vector<WayPlaces> places_;  ///< Of each way.
+  std::vector<WayPlaces> places_;  ///< For each way.
   std::vector<std::vector<LedgerEntry>> entries_;
 };
 

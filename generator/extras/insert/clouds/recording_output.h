@@ -37,7 +37,7 @@ struct WrittenFrame {
   std::vector<std::uint32_t> slots;
   bool has_slots = true;                ///< Whether they are known before Write().
   std::string source_hash;              ///< ContentHash of the frame's source, if it is a file.
-  std::optional<EncodedFrame> frame{};  ///< Of a sequence.
+  std::optional<EncodedFrame> frame{};  ///< A frame of a sequence.
 };
 
 /// Writes frames that are made of those of a recording, one after another, into a folder.

@@ -140,7 +140,7 @@ class SameSequence : public RecordingOutput {
   SequenceSpec spec_;
   LabelNumbers labels_;
   InsertRange range_;
-  std::vector<FrameLines> lines_;  ///< Of the whole recording.
+  std::vector<FrameLines> lines_;  ///< Lines of the whole recording.
   std::optional<FolderLock> lock_;
   std::optional<RunDirectory> directory_;
 };

@@ -10,10 +10,10 @@ namespace railcast {
 
 /// The files of a recording whose frames are in cloud files.
 struct SourceFiles {
-  std::filesystem::path directory;  ///< That all names are relative to.
-  /// Of each frame: its cloud, and behind it the file of its labels if there is one.
+  std::filesystem::path directory;  ///< The folder that all names are relative to.
+  /// For each frame: its cloud, and behind it the file of its labels if there is one.
   std::vector<std::vector<std::string>> frames;
-  /// Those that stand beside them, such as poses and calibrations, in order.
+  /// The files beside them, such as poses and calibrations, in order.
   std::vector<std::string> others;
   /// Received streams: the first line of frames.csv, and that of each frame. Such a file is none of
   /// `others`.

@@ -175,8 +175,8 @@ RecordedFirings OfPoints(double rate_hz, RecordedFrame recorded) {
 
 struct FiringFinder::Parts {
   ScanSpec scan;
-  ScanPattern pattern;                        ///< Of frame 0.
-  std::vector<std::uint32_t> firing_of_cell;  ///< Of `pattern`.
+  ScanPattern pattern;                        ///< The pattern of frame 0.
+  std::vector<std::uint32_t> firing_of_cell;  ///< Firings of `pattern`.
   bool may_use_points_alone{};
   bool is_followed{};  ///< Whether railcast wrote clouds that do not state their beams.
   bool is_own_scan{};  ///< Whether the recording itself says that this is its scan.

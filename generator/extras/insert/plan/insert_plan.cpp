@@ -43,7 +43,7 @@ struct PlacesOfRun {
   const RecordedWay& way;
   const RecordedLine& line;
   Transform vehicle_from_sensor;
-  double length_m{};  ///< Of the alignment.
+  double length_m{};  ///< Length of the alignment.
 };
 
 void CountMotionFrom(double zero_s_m, std::optional<MotionSpec>& motion) {
@@ -194,7 +194,7 @@ LidarSpec ReadSensorFile(std::string_view text, const ScenarioSpec& plan) {
 
 std::optional<LidarSpec> SensorOfSequence(const RecordingInfo& info) {
   if (info.kind == kMergedKind) return std::nullopt;
-  // Those into which something was put have one, too.
+  // Sequences into which something was put have a scenario, too.
   if (info.scenario) return info.scenario->lidar;
   if (!info.origin) return std::nullopt;
   const auto file = info.source / kScenarioFile;

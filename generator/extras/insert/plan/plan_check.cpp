@@ -24,7 +24,7 @@ struct SeenBox {
   Eigen::AlignedBox3d bounds_m;
   Vector3 towards;          ///< Unit vector from the sensor to its middle.
   double distance_m{};      ///< To the middle.
-  double cos_half_angle{};  ///< Of the cone about its bounding sphere; -1 from within it.
+  double cos_half_angle{};  ///< Cone about its bounding sphere; -1 from within it.
 };
 
 SeenBox SeeBox(const World& world,

@@ -15,7 +15,7 @@ namespace railcast {
 struct ThingCheck {
   std::string name;
   std::size_t num_frames_in_reach{};  ///< Frames in which firings aim at its bounding box.
-  std::size_t most_firings{};         ///< Of one frame that do, within the sensor's range.
+  std::size_t most_firings{};  ///< Most such firings of one frame, within the sensor's range.
   std::size_t most_firings_frame{};
   /// Recorded points in its direction, over all frames that were looked at: all of them, those
   /// nearer than the object, which hide it, and those inside its bounding box, where a recorded
@@ -27,7 +27,7 @@ struct ThingCheck {
 };
 
 struct PlanCheck {
-  std::size_t num_frames{};         ///< Of the range.
+  std::size_t num_frames{};         ///< Frames of the range.
   std::size_t num_frames_looked{};  ///< Whose points were looked at.
   std::vector<ThingCheck> things;   ///< In the order of the plan's world.
 };

@@ -34,7 +34,7 @@ constexpr std::size_t kTumNumbers = 8;
 /// Whether frames of a recording can be this far apart.
 bool IsFrameStep(double step_s, double most_s = kMostFrameStep_s) {
   constexpr double kLeast_s = 0.01;
-  constexpr double kRounding = 1e-6;  // Of times in microseconds.
+  constexpr double kRounding = 1e-6;  // For times in microseconds.
   return step_s >= kLeast_s - kRounding && step_s <= most_s + kRounding;
 }
 
@@ -214,7 +214,7 @@ class OpenLabel {
   const Json& json_;
   OpenLabelPlace place_;
   std::string sensor_;
-  std::map<std::string, Link> parents_;  ///< Of coordinate systems, by name.
+  std::map<std::string, Link> parents_;  ///< Links of coordinate systems, by name.
 };
 
 /// Reads the poses of a sensor from a file of OpenLABEL 1.0 (ASAM, 2021): from its coordinate

@@ -10,7 +10,7 @@
 
 namespace railcast {
 
-inline constexpr double kMostSpeed_mps = 150.0;  ///< That of the fastest train was 168, on rails.
+inline constexpr double kMostSpeed_mps = 150.0;  ///< The fastest train reached 168, on rails.
 inline constexpr double kMostFrameStep_s = 10.0;
 
 /// Checks the speed over a whole way.
@@ -34,7 +34,7 @@ struct KittiPoses {
 /// The poses of a sensor, one for each frame of a recording.
 struct PoseFile {
   std::vector<Transform> world_from_sensor;
-  std::vector<std::int64_t> stamps_ns{};  ///< Of the frames; empty if the file does not say them.
+  std::vector<std::int64_t> stamps_ns{};  ///< Empty if the file does not say them.
   std::int64_t step_ns{};                 ///< Median of the differences of stamps.
 };
 

@@ -168,7 +168,7 @@ std::vector<PosedFrame> ReadFrames(const fs::path& source) {
   const auto recording = OpenRecording(source);
   const RecordingInfo& info = recording->info();
   if (info.origin && info.kind != "merged clouds") return ReadLinesOfSequence(info.source);
-  // Those into which something was put already have their poses beside them.
+  // Recordings into which something was put already have their poses beside them.
   const bool are_files = info.kind == "point cloud file" ||
                          info.kind == "directory of point clouds" || info.kind == "KITTI sequence";
   if (are_files && !info.scenario) return FramesOfFiles(info);

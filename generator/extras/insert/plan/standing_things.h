@@ -16,11 +16,11 @@ namespace railcast {
 
 /// The ground at a place, as the recording has it.
 struct RecordedGround {
-  double height_m{};         ///< Of the world, at the place.
+  double height_m{};         ///< Height in the world, at the place.
   Vector3 up{0, 0, 1};       ///< Unit normal in the world.
   double residual_m{};       ///< Root mean square distance of its points.
   std::size_t num_points{};  ///< In the plane; 0 = no ground was found.
-  double radius_m{};         ///< Of the circle in plan that they are in.
+  double radius_m{};         ///< Radius of the circle in plan that they are in.
   [[nodiscard]] bool is_found() const { return num_points > 0; }
 };
 

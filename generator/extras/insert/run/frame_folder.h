@@ -29,7 +29,7 @@ struct FrameFolderSpec {
   std::string run;   ///< The text of run.json.
   std::uint32_t first_frame{};
   std::uint32_t num_frames{};
-  /// Those that get a line of each frame, without the ledger.
+  /// The files that get a line of each frame, without the ledger.
   std::vector<LineFileName> line_files;
   /// The file whose lines make frames count as done: insert.jsonl or convert.jsonl.
   std::string ledger;

@@ -321,7 +321,7 @@ class InsertRun {
     return certificates_->Result(LabelsOf(recording_.info(), plan_));
   }
 
-  // Of the frames that an earlier run has made.
+  // The certificates of the frames that an earlier run has made.
   [[nodiscard]] CertificateSums CertificatesSoFar() const {
     CertificateSums sums(*inserter_.certify());
     if (folder_.num_done() == 0) return sums;

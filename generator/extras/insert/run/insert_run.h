@@ -42,7 +42,7 @@ struct InsertResult : RunResult {
 [[nodiscard]] InsertRange RangeOf(std::uint32_t first_frame,
                                   std::optional<std::uint32_t> last_frame,
                                   std::uint32_t num);
-/// As above, of those that the plan has found.
+/// The overload for frames that the plan has found.
 [[nodiscard]] InsertRange RangeOf(const InsertChoices& choices, const InsertPlan& plan);
 
 /// @throws InputError if what is written would be read as a part of the recording.

@@ -257,8 +257,8 @@ TEST(ReplayCommand, SaysWhatDoesNotGoTogether) {
   };
   EXPECT_EQ(fault(run.string() + " --protocol packets"),
             run.string() +
-                ": must be a capture or a bag's topic of a sensor's packets for protocol "
-                "packets (got neither); railcast and ros2 send frames\n");
+                ": must be a capture or a bag with a sensor's packets if --protocol is packets "
+                "(got neither); --protocol railcast and ros2 send frames\n");
   EXPECT_EQ(fault(cloud.string() + " --protocol vlp16"),
             "--protocol vlp16: is for sequences of railcast, whose scenarios say how the sensor "
             "fires; must be railcast or ros2 here (got point cloud file)\n");
