@@ -173,7 +173,7 @@ void AddLookOptions(ProgramOptions& app, ViewOptions& options, RawOptions& raw) 
       .TakesOneWord();
   app.AddOption("--image", raw.image,
                 "The camera's image to show in the corner; default: color where there are images. "
-                "Of a live source: color or off")
+                "For a live source: color or off")
       .Check(Named(Strings(kPictureKindNames)));
   app.AddOption("--select", options.select,
                 "Labels to show, separated by commas; all others are faint")

@@ -54,8 +54,8 @@ void Describe(Archive& a, AlignmentSectionsSpec& s) {
 void Describe(Archive& a, AlignmentElement& s) {
   a.Required("type", s.type, "A clothoid leads from the curvature before it to the one after it.");
   a.Required("length_m", s.length_m, "Length.", LengthOfLine());
-  a.Optional("radius_m", s.radius_m, "Of an arc only: left positive, right negative.",
-             RadiusLimits());
+  a.Optional("radius_m", s.radius_m,
+             "Radius of an arc: left positive, right negative. Only for arcs.", RadiusLimits());
   a.Ensure({"radius_m"}, s.radius_m != 0.0, "must not be 0");
   a.Ensure({"radius_m", "type"}, s.type != ElementType::kArc || s.radius_m.has_value(),
            "must be given for an arc");

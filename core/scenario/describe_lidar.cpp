@@ -44,7 +44,8 @@ void Describe(Archive& a, SpinningSpec& s) {
 
 void Describe(Archive& a, PrismSpec& s) {
   a.Required("wedge_deg", s.wedge_deg, "Angle between the faces.", Within(0, 60));
-  a.Required("refractive_index", s.refractive_index, "Of the glass.", Within(1, 4));
+  a.Required("refractive_index", s.refractive_index, "Refractive index of the glass.",
+             Within(1, 4));
   a.Required("turns_hz", s.turns_hz, "Turns per second; positive from left to up.",
              Within(-10'000, 10'000));
   a.Optional("start_deg", s.start_deg,

@@ -40,8 +40,8 @@ void DescribeFacing(Archive& a, Structure& s, KeyDoc height_doc) {
 
 void Describe(Archive& a, SignalSpec& s) {
   DescribeFacing(a, s,
-                 "Of its top above top of rail: at least 2.5 for a main or distant signal, 0.4 for "
-                 "a shunting signal; absent = by kind.");
+                 "Height of its top above top of rail: at least 2.5 for a main or distant signal, "
+                 "0.4 for a shunting signal; absent = by kind.");
   // Else the screen and the boards below it would reach into the ground.
   const double least_m = s.kind == SignalKind::kShunting ? 0.4 : 2.5;
   a.Ensure({"height_m", "kind"}, !s.height_m || *s.height_m >= least_m,
@@ -50,7 +50,7 @@ void Describe(Archive& a, SignalSpec& s) {
 }
 
 void Describe(Archive& a, BoardSpec& s) {
-  DescribeFacing(a, s, "Of its top above top of rail; absent = by kind.");
+  DescribeFacing(a, s, "Height of its top above top of rail; absent = by kind.");
   a.Optional("size_m", s.size_m, "Width and height of its plate; absent = by kind.",
              Within(0.1, 5));
   a.Ensure({"size_m", "kind"}, !s.size_m || s.kind != BoardKind::kFoulingPoint,
@@ -80,9 +80,10 @@ void Describe(Archive& a, FurnitureSpec& s) {
   a.Optional("side", s.side, "Side of the track, towards increasing chainage.");
   a.Optional("distance_m", s.distance_m, "From the track's axis to its middle.",
              StandingDistanceLimits());
-  a.Optional("h_m", s.h_m,
-             "Of its foot above top of rail; absent = on the ground or on the platform there.",
-             Within(-100, 100));
+  a.Optional(
+      "h_m", s.h_m,
+      "Height of its foot above top of rail; absent = on the ground or on the platform there.",
+      Within(-100, 100));
 }
 
 void Describe(Archive& a, BufferStopSpec& s) {
@@ -106,8 +107,9 @@ void Describe(Archive& a, LevelCrossingSpec& s) {
       "barrier_angle_deg", s.barrier_angle_deg,
       "Angle of barriers that stand still half way, instead of barriers: 0 = closed, 90 = upright.",
       Within(0, 90));
-  a.Optional("barrier_angles_deg", s.barrier_angles_deg,
-             "Of barriers that move while the scenario runs, by time, linear between the entries.");
+  a.Optional(
+      "barrier_angles_deg", s.barrier_angles_deg,
+      "Angles of barriers that move while the scenario runs, by time, linear between the entries.");
   a.Optional("has_signs", s.has_signs, "Whether there are St Andrew's crosses with lamps.");
   a.Ensure({"barrier_angle_deg", "barriers"},
            !s.barrier_angle_deg || s.barriers != BarrierState::kNone,
@@ -133,10 +135,10 @@ void Describe(Archive& a, BuildingSpec& s) {
              "Corners in plan, one after the other: chainage, and distance from the track's axis, "
              "left positive.",
              EachNumber{.limits = Within(-1e7, 1e7), .at_least = 3});
-  a.Optional("height_m", s.height_m, "Of the walls, above the lowest ground at a corner.",
+  a.Optional("height_m", s.height_m, "Height of the walls above the lowest ground at a corner.",
              Within(1, 200));
   a.Optional("roof", s.roof, "Flat, or a gable over the longer sides of four corners.");
-  a.Optional("roof_pitch_deg", s.roof_pitch_deg, "Of a gable roof.", Within(5, 75));
+  a.Optional("roof_pitch_deg", s.roof_pitch_deg, "Pitch of a gable roof.", Within(5, 75));
   a.Optional("has_windows", s.has_windows, "Whether there are windows of glass in every storey.");
   a.Ensure({"footprint_m", "roof"}, s.roof == RoofKind::kFlat || s.footprint_m.size() == 4,
            "must have four corners under a gable roof");

@@ -36,7 +36,7 @@ void Describe(Archive& a, ModelSpec& s) {
              "the ends of their length.",
              Within(1e-3, 1000));
   a.Optional("parts", s.parts, "Materials and labels of parts of the mesh.");
-  a.Optional("material", s.material, "Of parts whose material nothing else gives.");
+  a.Optional("material", s.material, "Material of parts that nothing else gives one.");
   a.Optional("up", s.up, "Upward axis of the mesh; absent: as its file says, otherwise z.");
   a.Optional("unit_m", s.unit_m, "Metres per file unit; absent: as the file says, otherwise 1.",
              Within(1e-6, 1e6));

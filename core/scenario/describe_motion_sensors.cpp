@@ -79,8 +79,8 @@ void Describe(Archive& a, OdometerSpec& s) {
   a.Optional("wheel_diameter_m", s.wheel_diameter_m, "As the odometer assumes it.", Within(0.1, 3));
   a.Optional("true_wheel_diameter_m", s.true_wheel_diameter_m,
              "As it is, with its wear; absent = as assumed.", Within(0.1, 3));
-  a.Optional("pulses_per_revolution", s.pulses_per_revolution, "Of the wheel.",
-             Within(1, 1'000'000));
+  a.Optional("pulses_per_revolution", s.pulses_per_revolution,
+             "Pulses per revolution of the wheel.", Within(1, 1'000'000));
   a.Optional("traction_slip_share", s.traction_slip_share,
              "By how much more the wheel turns than it rolls while the speed rises.", Within(0, 1));
   a.Optional("braking_slip_share", s.braking_slip_share,

@@ -140,8 +140,8 @@ void Describe(Archive& a, MotionSpec& s) {
 
 void Describe(Archive& a, MeshPartSpec& s) {
   a.Required("of", s.of, "Name of a material or of a group in the mesh's file.", NonEmptyString());
-  a.Optional("material", s.material, "Of the materials; absent = the object's.");
-  a.Optional("label", s.label, "Of the label table; absent = the object's.");
+  a.Optional("material", s.material, "Name of a material; absent = the object's.");
+  a.Optional("label", s.label, "Name in the label table; absent = the object's.");
   a.Ensure({"", "material", "label"}, s.material || s.label, "must have a material or a label");
 }
 

@@ -27,15 +27,16 @@ void Describe(Archive& a, DistortionSpec& s) {
 
 void Describe(Archive& a, CameraSpec& s) {
   a.Optional("name", s.name, "Folder of its images; lower-case letters, digits and _.");
-  a.Required("width_px", s.width_px, "Of the image.", Within(1, 65'536));
-  a.Required("height_px", s.height_px, "Of the image.", Within(1, 65'536));
+  a.Required("width_px", s.width_px, "Width of the image.", Within(1, 65'536));
+  a.Required("height_px", s.height_px, "Height of the image.", Within(1, 65'536));
   a.Required("horizontal_fov_deg", s.horizontal_fov_deg,
              "Angle between the left and the right edge of the image, without distortion.",
              PositiveUpTo(170));
   a.Optional("rate_hz", s.rate_hz, "Images per second; absent = one with each frame of the sensor.",
              Within(1e-6, 1e6));
   a.Optional("mount", s.mount, "Where it is on the vehicle; absent = in the place of the sensor.");
-  a.Optional("distortion", s.distortion, "Of the lens: Brown and Conrady's model as in OpenCV.");
+  a.Optional("distortion", s.distortion,
+             "Distortion of the lens: Brown and Conrady's model as in OpenCV.");
   a.Optional(
       "udp", s.udp,
       "host:port of each receiver of live images, [host]:port of IPv6; empty = they are not sent.",
@@ -77,7 +78,8 @@ void Describe(Archive& a, Ros2Spec& s) {
   a.Optional("receive_buffers", s.receive_buffers,
              "large: every reader has room for whole frames, 1 MiB or more.");
   a.Optional("deceleration_mps2", s.deceleration_mps2,
-             "Of the vehicle at commands of ROS 2, which name none.", Within(0.001, 10));
+             "Deceleration of the vehicle at commands of ROS 2, which name none.",
+             Within(0.001, 10));
 }
 
 void Describe(Archive& a, InterfacesSpec& s) {

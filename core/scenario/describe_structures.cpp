@@ -37,7 +37,8 @@ void Describe(Archive& a, PlatformRoofSpec& s) {
   a.Optional("end_s_m", s.end_s_m,
              "Chainage where it ends; absent = with the platform, or before its ramp.",
              ChainageLimits());
-  a.Optional("height_m", s.height_m, "Of its lower side above the platform.", Within(2.2, 10));
+  a.Optional("height_m", s.height_m, "Height of its lower side above the platform.",
+             Within(2.2, 10));
   a.Optional("column_spacing_m", s.column_spacing_m, "Greatest distance between columns.",
              Within(2, 50));
   a.Ensure({"end_s_m", "begin_s_m"}, !s.begin_s_m || !s.end_s_m || *s.end_s_m > *s.begin_s_m,
@@ -46,9 +47,10 @@ void Describe(Archive& a, PlatformRoofSpec& s) {
 
 void Describe(Archive& a, PlatformSpec& s) {
   DescribeSideStretch(a, s);
-  a.Optional("height_m", s.height_m, "Of its edge above top of rail.", Within(0.2, 1.3));
+  a.Optional("height_m", s.height_m, "Height of its edge above top of rail.", Within(0.2, 1.3));
   a.Optional("edge_distance_m", s.edge_distance_m,
-             "Of its edge from the axis of straight track; curves add to it.", Within(0.8, 10));
+             "Distance of its edge from the axis of straight track; curves add to it.",
+             Within(0.8, 10));
   a.Optional("width_m", s.width_m, "Its width.", Within(0.5, 50));
   a.Optional("has_edge_strip", s.has_edge_strip,
              "Whether a white tactile strip runs along the edge.");
@@ -59,7 +61,8 @@ void Describe(Archive& a, PlatformSpec& s) {
 
 void Describe(Archive& a, NoiseWallSpec& s) {
   DescribeSideStretch(a, s);
-  a.Optional("distance_m", s.distance_m, "Of its face from the track's axis.", BesideTrackLimits());
+  a.Optional("distance_m", s.distance_m, "Distance of its face from the track's axis.",
+             BesideTrackLimits());
   a.Optional("height_m", s.height_m, "Above top of rail.", Within(0.3, 15));
   a.Optional("post_spacing_m", s.post_spacing_m, "Greatest distance between posts.", Within(1, 20));
 }
@@ -75,22 +78,22 @@ void Describe(Archive& a, FenceSpec& s) {
 
 void Describe(Archive& a, RetainingWallSpec& s) {
   DescribeSideStretch(a, s);
-  a.Optional("distance_m", s.distance_m, "Of its face from the track's axis, at top of rail.",
-             BesideTrackLimits());
+  a.Optional("distance_m", s.distance_m,
+             "Distance of its face from the track's axis, at top of rail.", BesideTrackLimits());
   a.Optional("height_m", s.height_m, "Above top of rail.", Within(-0.6, 30));
-  a.Optional("depth_m", s.depth_m, "Of its foot below top of rail.", Within(0.8, 30));
+  a.Optional("depth_m", s.depth_m, "Depth of its foot below top of rail.", Within(0.8, 30));
 }
 
 void Describe(Archive& a, CableTroughSpec& s) {
   DescribeSideStretch(a, s);
-  a.Optional("distance_m", s.distance_m, "Of its nearer side from the track's axis.",
+  a.Optional("distance_m", s.distance_m, "Distance of its nearer side from the track's axis.",
              BesideTrackLimits());
   a.Optional("width_m", s.width_m, "Its width.", Within(0.1, 2));
 }
 
 void Describe(Archive& a, TunnelSpec& s) {
   DescribeStretch(a, s);
-  a.Optional("radius_m", s.radius_m, "Of its vault, inside; absent = as the tracks need.",
+  a.Optional("radius_m", s.radius_m, "Radius of its vault, inside; absent = as the tracks need.",
              Within(3, 15));
   a.Optional("has_portals", s.has_portals, "Whether a wall stands about either mouth.");
   a.Optional("niche_spacing_m", s.niche_spacing_m, "On both sides, at least 5; 0 = none.",
@@ -106,7 +109,7 @@ void Describe(Archive& a, BridgeSpec& s) {
              "Depth of the gap below top of rail, at least 1.5 more than deck_thickness_m.",
              Within(2.5, 100));
   a.Optional("edge_distance_m", s.edge_distance_m,
-             "Of its edges from the axes of the outermost tracks on it.", Within(2.2, 20));
+             "Distance of its edges from the axes of the outermost tracks on it.", Within(2.2, 20));
   a.Optional("deck_thickness_m", s.deck_thickness_m, "Below the ballast.", Within(0.2, 10));
   a.Optional("railing_height_m", s.railing_height_m, "Above the edge beam; 0 = none.",
              Within(0, 5));
@@ -116,12 +119,14 @@ void Describe(Archive& a, BridgeSpec& s) {
 
 void Describe(Archive& a, OverbridgeSpec& s) {
   DescribeStretch(a, s);
-  a.Optional("clearance_m", s.clearance_m, "Of its lower side above top of rail.", Within(3, 50));
-  a.Optional("deck_thickness_m", s.deck_thickness_m, "Of the deck.", Within(0.2, 10));
+  a.Optional("clearance_m", s.clearance_m, "Height of its lower side above top of rail.",
+             Within(3, 50));
+  a.Optional("deck_thickness_m", s.deck_thickness_m, "Thickness of the deck.", Within(0.2, 10));
   a.Optional("left_m", s.left_m, "Extent to the left of the track's axis.", Within(2, 500));
   a.Optional("right_m", s.right_m, "Extent to the right of the track's axis.", Within(2, 500));
   a.Optional("pier_distance_m", s.pier_distance_m,
-             "Of its abutments' faces from the axes of the outermost tracks.", Within(1, 200));
+             "Distance of its abutments' faces from the axes of the outermost tracks.",
+             Within(1, 200));
   a.Optional("crossing_deg", s.crossing_deg, "From the track's direction to the road's.",
              Within(30, 150));
 }
@@ -130,10 +135,10 @@ void Describe(Archive& a, ThirdRailSpec& s) {
   DescribeSideStretch(a, s);
   a.Optional("contact", s.contact, "Side of the rail on which the shoes of trains run.");
   a.Optional("distance_m", s.distance_m,
-             "Of its middle from the track's axis; absent = as usual for the contact.",
+             "Distance of its middle from the track's axis; absent = as usual for the contact.",
              Within(0.85, 3));
   a.Optional("height_m", s.height_m,
-             "Of its contact surface above top of rail; absent = as usual for the contact.",
+             "Height of its contact surface above top of rail; absent = as usual for the contact.",
              Within(0, 0.6));
   a.Optional("has_shield", s.has_shield,
              "Whether there are boards beside the rail, or a cover over it.");

@@ -34,9 +34,10 @@ void Describe(Archive& a, TrackSpec& s) {
   a.Optional("elements", s.elements,
              "Elements as if the alignment were straight, from the turnout at its beginning on or "
              "from start_s_m and offset_m.");
-  a.Optional("heading_deg", s.heading_deg,
-             "Of the first element against the alignment, left positive; without a turnout.",
-             Within(-45, 45));
+  a.Optional(
+      "heading_deg", s.heading_deg,
+      "Heading of the first element against the alignment, left positive; without a turnout.",
+      Within(-45, 45));
   a.Optional("start_s_m", s.start_s_m, "Chainage where the track begins.", ChainageLimits());
   a.Optional("end_s_m", s.end_s_m, "Chainage where it ends; absent = the end of the line.",
              ChainageLimits());
@@ -58,7 +59,7 @@ void Describe(Archive& a, YardSpec& s) {
   a.Optional("spacing_m", s.spacing_m, "Between its tracks, and from the track that it leaves.",
              Within(3, 100));
   a.Required("usable_length_m", s.usable_length_m,
-             "Of each track, from its fouling point to its end.", PositiveUpTo(1e4));
+             "Length of each track from its fouling point to its end.", PositiveUpTo(1e4));
   a.Optional("sleeper", s.sleeper, "Kind of sleeper.");
   a.Optional("electrified", s.electrified, "Whether its tracks have a contact line.");
 }

@@ -17,10 +17,11 @@
 namespace railcast {
 
 void Describe(Archive& a, ReportedDetection& s) {
-  a.Optional("center_m", s.center_m, "Of a box.", Within(-kFarthestBox_m, kFarthestBox_m));
-  a.Optional("size_m", s.size_m, "Of a box: length, width, height.", PositiveUpTo(kLargestBox_m));
+  a.Optional("center_m", s.center_m, "Centre of a box.", Within(-kFarthestBox_m, kFarthestBox_m));
+  a.Optional("size_m", s.size_m, "Length, width and height of a box.", PositiveUpTo(kLargestBox_m));
   a.Optional("quaternion_xyzw", s.quaternion_xyzw, "Turns the box.", Within(-1, 1));
-  a.Optional("points", s.points, "Of a cluster: their places in the frame's file.", NonEmptyList());
+  a.Optional("points", s.points, "Points of a cluster, by their places in the frame's file.",
+             NonEmptyList());
   a.Optional("score", s.score, "How sure the detector is.", Within(0, 1));
   a.Optional("class", s.class_name, "What it is taken for.", OneLine());
   const Eigen::Map<const Eigen::Vector4d> turn(s.quaternion_xyzw.data());
@@ -36,8 +37,8 @@ void Describe(Archive& a, ReportedFrame& s) {
   a.Optional("latency_ms", s.latency_ms, "From the stamp until this is known.", Within(0, 1e5));
   a.Optional("compensate", s.compensation, "Which motion had been undone.");
   a.Optional("axes", s.axes, "Whose axes the boxes are in.");
-  a.Optional("handedness", s.handedness, "Of these axes.");
-  a.Required("detections", s.detections, "Of this frame; may be empty.");
+  a.Optional("handedness", s.handedness, "Handedness of these axes.");
+  a.Required("detections", s.detections, "Detections of this frame; may be empty.");
 }
 
 namespace {

@@ -30,13 +30,13 @@ void Describe(Archive& a, ClusterDetectorSpec& s) {
              Within(0, 5));
   a.Optional("min_distance_m", s.min_distance_m, "Ahead of the sensor: what is nearer is rain.",
              Within(0, 100));
-  a.Optional("cluster_distance_m", s.cluster_distance_m, "Of points of one cluster, in plan.",
-             Within(0.01, 10));
+  a.Optional("cluster_distance_m", s.cluster_distance_m,
+             "Greatest distance of neighbours in a cluster, in plan.", Within(0.01, 10));
   a.Optional("min_points", s.min_points, "Least number of points of a cluster.", Within(1, 1e6));
 }
 
 void Describe(Archive& a, TrainGauge& s) {
-  a.Required("width_m", s.width_m, "Of the gauge.", Within(0.1, 10));
+  a.Required("width_m", s.width_m, "Width of the gauge.", Within(0.1, 10));
   a.Required("height_m", s.height_m, "Over top of rail.", Within(0.1, 10));
 }
 
@@ -69,7 +69,7 @@ void Describe(Archive& a, StudySpec& s) {
   if (objects) s.objects = std::move(*objects);
   a.Optional("detection", s.detect.rule, "When an object counts as detected.");
   a.Optional("detector", s.detector, "Finds the objects, in whole frames.");
-  a.Optional("gauge", s.gauge, "Of the train, instead of the vehicle's outline.");
+  a.Optional("gauge", s.gauge, "Gauge of the train, instead of the vehicle's outline.");
   a.Optional("rare", s.rare, "Seeks the probability of rare failures.");
   a.Optional("braking", s.detect.braking, "How the train stops.");
   std::optional<double> speed_kmph;

@@ -57,10 +57,10 @@ Section StudyCertificateSection(const std::optional<RunCertificate>& certificate
   if (!certificate) return {};
   Section section = MakeCertificateSection(*certificate);
   section.title = "Numerical error on the objects";
-  section.paragraphs.insert(
-      section.paragraphs.begin(),
-      "Of the objects that the study follows: its firings are those whose beams may meet one of "
-      "them in a frame that was traced, and only their echoes count.");
+  section.paragraphs.insert(section.paragraphs.begin(),
+                            "This is about the objects that the study follows: its firings are "
+                            "those whose beams may meet "
+                            "one of them in a frame that was traced, and only their echoes count.");
   std::erase_if(section.tables,
                 [](const Table& table) { return table.key == "certificate_by_class"; });
   for (Table& table : section.tables) table.is_open = true;

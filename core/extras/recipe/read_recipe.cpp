@@ -179,7 +179,7 @@ void Describe(Archive& a, ChoiceDraw& s) {
 
 void Describe(Archive& a, RecipeBase& s) {
   a.Required("file", s.file, "A scenario, or a plan for recordings.", ExistingFile());
-  a.Optional("recordings", s.recordings, "Of a plan: files and directories of recordings.");
+  a.Optional("recordings", s.recordings, "Files and directories of recordings, for a plan.");
   a.Optional("weight", s.weight, "How often, relative to the others.", PositiveUpTo(1e9));
   a.Optional("split", s.split, "Part of all scenarios on its line.");
   a.Optional("start_s_m", s.start_s_m, "Instead of the recipe's.");
@@ -196,7 +196,7 @@ void Describe(Archive& a, DrawGroup& s) {
   a.Required("name", s.name, "Unique.", NonEmptyString());
   std::optional<std::vector<GroupOption>> options;
   if (!s.options.empty()) options = s.options;
-  a.Optional("options", options, "Of which one is drawn.", NonEmptyList());
+  a.Optional("options", options, "Options of which one is drawn.", NonEmptyList());
   std::optional<std::vector<std::string>> families;
   if (!s.random_weather.empty()) families = s.random_weather;
   a.Optional("random_weather", families, "Families of weather of which one is drawn.",

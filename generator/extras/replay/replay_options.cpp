@@ -104,7 +104,7 @@ void AddReplayOptions(ProgramOptions& replay, ReplayOptions& options) {
                  "frames; default: packets for captures, ros2 for bags, otherwise railcast")
       .Check(Named(ProtocolNames()));
   replay.AddOption("--fields", options.fields,
-                   "Of frames with protocols railcast and ros2: fields to send, separated by "
+                   "Fields to send in frames with protocols railcast and ros2, separated by "
                    "commas; default: those of `stream` that the recording has. With ros2 also "
                    "velodyne, ouster, hesai, livox");
   replay
