@@ -328,6 +328,26 @@ class Units(unittest.TestCase):
                 self.assertEqual(self.names_flagged(declaration), [])
 
 
+class Fragments(unittest.TestCase):
+
+    def test_a_comment_or_description_does_not_lean_on_the_word_before_it(self):
+        self.assertEqual(faults_of({
+            "core/scan/a.h": "float a;  ///< Of the beam.\n/// Those of a frame.\nint b;\n"
+                             "//  Offset.\nint c;  // As above, in turns.\n",
+            "core/scan/b.cpp": 'a.Required("b", s.b, "Of the beam.");\n',
+        }), ["core/scan/a.h:1: a comment or description says what it is about (Of the beam.)",
+             "core/scan/a.h:2: a comment or description says what it is about (Those of a frame.)",
+             "core/scan/a.h:5: a comment or description says what it is about (As above, in turns.)",
+             "core/scan/b.cpp:1: a comment or description says what it is about (Of the beam.)"])
+
+    def test_a_line_that_continues_a_comment_may_begin_with_any_word(self):
+        self.assertEqual(faults_of({
+            "core/scan/a.h": "/// The azimuth\n/// Of a beam.\nint a;\n",
+            "core/scan/b.cpp": 'const char* const b = "http://a // Of a page";\nSay("The azimuth "\n    "Of a beam");\n',
+            "tests/core/scan/c.cpp": "// Of a beam.\n",
+        }), [])
+
+
 class Sizes(unittest.TestCase):
 
     def test_five_hundred_lines_are_allowed_and_one_more_is_not(self):
