@@ -17,7 +17,7 @@ namespace railcast {
 
 /// Beside kInsertFile: the plan as a scenario whose line is the recording's.
 inline constexpr std::string_view kInsertWorldFile = "world.resolved.json";
-/// Also there: a NumPy array for each frame, with a row for each point of its cloud.
+/// Beside kInsertFile: a NumPy array for each frame, with a row for each point of its cloud.
 inline constexpr std::string_view kInsertPointsFolder = "points";
 inline constexpr const char* kInsertPointType =
     "[('label', '<u4'), ('instance', '<u4'), ('outcome', 'u1'), ('change', 'u1')]";

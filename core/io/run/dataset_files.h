@@ -18,7 +18,7 @@ inline constexpr std::string_view kDatasetFile = "dataset.json";
 inline constexpr std::string_view kSequencesFolder = "sequences";
 /// In the folder of a scenario that is a plan: its recording with what was inserted.
 inline constexpr std::string_view kRecordingFolder = "recording";
-/// Beside it: the file with a line for each frame, which makes the frame count as done.
+/// In the same folder: the file with a line for each frame, which makes the frame count as done.
 inline constexpr std::string_view kInsertFile = "insert.jsonl";
 inline constexpr std::array<std::string_view, 3> kSplitFiles = {"split/train.txt", "split/val.txt",
                                                                 "split/test.txt"};
