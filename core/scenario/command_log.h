@@ -51,7 +51,7 @@ struct CommandLog {
 /// @param models Those of the scenario that was run, as for ReadCommand().
 [[nodiscard]] CommandLog ReadCommandLog(const std::filesystem::path& file,
                                         const std::vector<ModelSpec>& models = {});
-/// The overload for a stream; messages call the file `shown`.
+/// As ReadCommandLog(), from a stream; messages call the file `shown`.
 [[nodiscard]] CommandLog ParseCommandLog(std::istream& stream,
                                          const std::string& shown,
                                          const std::vector<ModelSpec>& models = {});

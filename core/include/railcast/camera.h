@@ -97,7 +97,7 @@ class Camera {
   /// Renders the scene of a frame as it is at the frame's stamp, in the simulator's weather and on
   /// its threads. The image depends on the frame alone. The memory of `image` is reused.
   void Render(Simulator& simulator, std::uint32_t frame_index, CameraImage& image) const;
-  /// The overload for several begun frames at once, as Simulator::Scan().
+  /// The overload for a begun frame; for several of them at once, as Simulator::Scan().
   void Render(Simulator& simulator, BegunFrame& begun, CameraImage& image) const;
 
  private:

@@ -32,7 +32,7 @@ void Describe(Archive& a, SensorRecord& s) {
   a.Required("name", s.name, "Name of the sensor.");
   a.Required("folder", s.folder, "Folder of its sequence.", NonEmptyString());
   a.Required("rate_hz", s.rate_hz, "Number of frames per second.");
-  a.Required("phase_s", s.phase_s, "Delay of its frames, as in the scenario.");
+  a.Required("phase_s", s.phase_s, "Stamp of its frame 0, as in the scenario.");
   a.Required("start_frame", s.start_frame, "Number of its first frame.");
   a.Required("num_frames", s.num_frames, "Number of its frames.");
   a.Optional("stride", s.stride, "Step from one frame's number to the next; left out where 1.");

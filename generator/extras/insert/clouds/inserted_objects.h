@@ -19,7 +19,7 @@ namespace railcast {
                                               std::uint32_t number,
                                               std::int64_t stamp_ns);
 
-/// The overload for what a recorded line says.
+/// As InsertedObjectsLine(), for what a recorded line says.
 [[nodiscard]] std::string ObjectsWith(ObjectsRecord record,
                                       const RecordedFirings& firings,
                                       const InsertedFrame& inserted);
