@@ -1,13 +1,31 @@
 #!/usr/bin/env bash
-# Installs missing packages, builds everything, compiles every public header on its own and runs all
-# tests: test.sh [CTEST OPTION...]. RAILCAST_PRESET names the preset, default release. At the end it names the
-# tests that were skipped, with their reasons, the slowest, and those over their budget of time.
+# Installs missing packages, builds everything and runs the tests of what has changed: test.sh [--all] [--keep]
+# [CTEST OPTION...]. RAILCAST_PRESET names the preset, default release. At the end it names the tests that were skipped, with
+# their reasons, the slowest, and those over their budget of time.
+#
+#   --all   also the tests of packages, pages, folders, damaged inputs and stability, and of headers compiled on their
+#           own, which else run where what they depend on has changed since they passed (tests/where_changed.py)
+#   --keep  says in tests/passed.json which of those passed, to be committed
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+while [[ "${1:-}" == --all || "${1:-}" == --keep ]]; do
+  case "$1" in
+    --all) export RAILCAST_TRY_ALL=1 ;;
+    --keep) export RAILCAST_KEEP=1 ;;
+  esac
+  shift
+done
 source scripts/packages.sh
 
 install_packages "${build_packages[@]}" "${test_packages[@]}"
-scripts/build.sh all all_verify_interface_header_sets
+targets=(all)
+if tests/where_changed.py --is-due Headers.CompileOnTheirOwn; then
+  targets+=(all_verify_interface_header_sets)
+fi
+scripts/build.sh "${targets[@]}"
+if [[ -n "${RAILCAST_KEEP:-}" && "${#targets[@]}" -eq 2 ]]; then
+  tests/where_changed.py --keep Headers.CompileOnTheirOwn
+fi
 preset=${RAILCAST_PRESET:-release}
 results="$PWD/build/$preset/Testing/results"
 # Foxglove's readers of bags are not in Debian. Where npm or its registry is missing, the tests that

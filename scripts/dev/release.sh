@@ -30,7 +30,7 @@ if ((faults > 0)); then exit 1; fi
 echo "nothing stands against releasing $version"
 if [[ "${1:-}" == --check ]]; then exit; fi
 
-RAILCAST_TRY_PACKAGES=yes scripts/test.sh
+scripts/test.sh --all
 RAILCAST_PRESET=package scripts/build.sh installed
 # Makes the packages, too. A test that is skipped ends with 77, and so does this script.
 tests/package/debian_test.sh "$PWD" "$PWD/build/package" "$PWD/build/package/debian"
