@@ -214,12 +214,14 @@ void AddWarnings(const WarningPlaces& places,
                  const LinesideSurfaces& surfaces,
                  Chunk& chunk) {
   if (!crossing.barrier_angles_deg.empty()) {
-    AppendModel(MakeBoomPedestal(surfaces), places.Barrier(), chunk.ground);
+    AppendModel(MakeLinesideModel("boom_pedestal", surfaces), places.Barrier(), chunk.ground);
   } else if (crossing.barriers != BarrierState::kNone) {
     AppendModel(MakeHalfBarrier(places.boom_length_m(), BarrierAngle_rad(crossing), surfaces),
                 places.Barrier(), chunk.ground);
   }
-  if (crossing.has_signs) AppendModel(MakeCrossingSign(surfaces), places.Sign(), chunk.ground);
+  if (crossing.has_signs) {
+    AppendModel(MakeLinesideModel("crossing_sign", surfaces), places.Sign(), chunk.ground);
+  }
 }
 
 }  // namespace

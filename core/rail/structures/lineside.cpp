@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "core/rail/line/rail_section.h"
 #include "core/rail/structures/lineside_models.h"
@@ -61,9 +62,8 @@ LinesidePlace FrontToTrack(double s_m, TrackSide side, double distance_m) {
 
 Model ModelOf(const SignalSpec& signal, const LinesideSurfaces& surfaces) {
   const double height_m = signal.height_m.value_or(DefaultsOf(signal.kind).height_m);
-  if (signal.kind == SignalKind::kMain) return MakeMainSignal(height_m, surfaces);
-  if (signal.kind == SignalKind::kDistant) return MakeDistantSignal(height_m, surfaces);
-  return MakeShuntingSignal(height_m, surfaces);
+  return MakeLinesideModel(std::string(NameOf(signal.kind)) + "_signal", surfaces,
+                           {.height_m = height_m});
 }
 
 Model ModelOf(const BoardSpec& board, const LinesideSurfaces& surfaces) {
@@ -71,7 +71,9 @@ Model ModelOf(const BoardSpec& board, const LinesideSurfaces& surfaces) {
   const double height_m = board.height_m.value_or(defaults.height_m);
   PlateSize plate = defaults.plate;
   if (board.size_m) plate = {(*board.size_m)[0], (*board.size_m)[1]};
-  if (board.kind == BoardKind::kFoulingPoint) return MakeFoulingMarker(height_m, surfaces);
+  if (board.kind == BoardKind::kFoulingPoint) {
+    return MakeLinesideModel("fouling_marker", surfaces, {.height_m = height_m});
+  }
   if (board.kind == BoardKind::kSpeedAnnouncement) {
     return MakeTriangularBoard(plate, height_m, surfaces);
   }
@@ -79,10 +81,10 @@ Model ModelOf(const BoardSpec& board, const LinesideSurfaces& surfaces) {
 }
 
 Model ModelOf(const FurnitureSpec& furniture, const LinesideSurfaces& surfaces) {
-  constexpr double kLampHeight_m = 6.0;
-  if (furniture.kind == FurnitureKind::kLamp) return MakeLamp(kLampHeight_m, surfaces);
-  if (furniture.kind == FurnitureKind::kBench) return MakeBench(surfaces);
-  return MakeShelter({4.0, 1.5, 2.5}, surfaces);
+  // Of a lamp or a shelter: benches leave nothing open.
+  const double height_m = furniture.kind == FurnitureKind::kLamp ? 6.0 : 2.5;
+  return MakeLinesideModel(NameOf(furniture.kind), surfaces,
+                           {.length_m = 4.0, .depth_m = 1.5, .height_m = height_m});
 }
 
 double SleeperAt_m(double s_m) {
@@ -122,7 +124,7 @@ void AddStructure(const ChunkContext& context, const BaliseSpec& balise, Chunk& 
   const double s_m = SleeperAt_m(balise.s_m);
   if (!track.Holds(s_m)) return;
   const SleeperSeat seat = SeatOf(track.spec().sleeper);
-  AppendModel(MakeBalise(context.surfaces.structures.lineside),
+  AppendModel(MakeLinesideModel("balise", context.surfaces.structures.lineside),
               track.Canted(s_m) * Eigen::Translation3d(0.0, 0.0, seat.top_m - seat.middle_drop_m),
               chunk.ground);
 }
@@ -131,16 +133,19 @@ void AddStructure(const ChunkContext& context, const DerailerSpec& derailer, Chu
   const StructureTrack track(context, derailer.track);
   if (!track.Holds(derailer.s_m)) return;
   const double yaw_rad = derailer.side == TrackSide::kLeft ? 0.0 : std::numbers::pi;
-  AppendModel(
-      MakeDerailer(context.surfaces.structures.lineside, RailShift_m(context.spec.alignment)),
-      track.Canted(derailer.s_m) * Eigen::AngleAxisd(yaw_rad, Vector3::UnitZ()), chunk.ground);
+  AppendModel(MakeLinesideModel("derailer", context.surfaces.structures.lineside,
+                                {.shift_m = RailShift_m(context.spec.alignment)}),
+              track.Canted(derailer.s_m) * Eigen::AngleAxisd(yaw_rad, Vector3::UnitZ()),
+              chunk.ground);
 }
 
 void AddStructure(const ChunkContext& context, const RelayBoxSpec& box, Chunk& chunk) {
   const StructureTrack track(context, box.track);
   if (!track.Holds(box.s_m)) return;
-  const Model model = MakeRelayBox({box.size_m[0], box.size_m[1], box.size_m[2]},
-                                   context.surfaces.structures.lineside);
+  const auto& [length_m, depth_m, height_m] = box.size_m;
+  const Model model =
+      MakeLinesideModel("relay_box", context.surfaces.structures.lineside,
+                        {.length_m = length_m, .depth_m = depth_m, .height_m = height_m});
   AppendModel(model,
               OnGround(context, track, FrontToTrack(box.s_m, box.side, box.distance_m), model),
               chunk.ground);
@@ -167,9 +172,9 @@ void AddStructure(const ChunkContext& context, const BufferStopSpec& stop, Chunk
                                  : track.course().begin_s_m() + kBufferStopLength_m;
   if (!track.Holds(face_s_m)) return;
   const double yaw_rad = is_end ? 0.0 : std::numbers::pi;
-  AppendModel(
-      MakeBufferStop(context.surfaces.structures.lineside, RailShift_m(context.spec.alignment)),
-      track.Canted(face_s_m) * Eigen::AngleAxisd(yaw_rad, Vector3::UnitZ()), chunk.ground);
+  AppendModel(MakeLinesideModel("buffer_stop", context.surfaces.structures.lineside,
+                                {.shift_m = RailShift_m(context.spec.alignment)}),
+              track.Canted(face_s_m) * Eigen::AngleAxisd(yaw_rad, Vector3::UnitZ()), chunk.ground);
 }
 
 std::vector<ClearedArea> ClearedBy(const SignalSpec& signal) {

@@ -48,21 +48,22 @@ TEST_F(LinesideModels, AreMadeOfAsManySoundTrianglesAsTheirDocumentationSays) {
     Model model;
     std::size_t num_triangles;
   };
-  const std::vector<Row> rows = {{MakeMainSignal(5.5, surfaces_), 232},
-                                 {MakeDistantSignal(4.5, surfaces_), 176},
-                                 {MakeShuntingSignal(0.8, surfaces_), 208},
-                                 {MakeBoard({0.7, 0.9}, 2.4, surfaces_), 52},
-                                 {MakeTriangularBoard({1.0, 0.85}, 2.4, surfaces_), 44},
-                                 {MakeFoulingMarker(0.35, surfaces_), 36},
-                                 {MakeBalise(surfaces_), 12},
-                                 {MakeRelayBox({1.2, 0.5, 1.25}, surfaces_), 36},
-                                 {MakeBufferStop(surfaces_, 0.0), 252},
-                                 {MakeDerailer(surfaces_, 0.0), 36},
-                                 {MakeLamp(6.0, surfaces_), 60},
-                                 {MakeBench(surfaces_), 48},
-                                 {MakeShelter({4.0, 1.5, 2.5}, surfaces_), 108},
-                                 {MakeHalfBarrier(3.6, 0.0, surfaces_), 36 + 6 * 12},
-                                 {MakeCrossingSign(surfaces_), 176}};
+  const std::vector<Row> rows = {
+      {MakeLinesideModel("main_signal", surfaces_, {.height_m = 5.5}), 232},
+      {MakeLinesideModel("distant_signal", surfaces_, {.height_m = 4.5}), 176},
+      {MakeLinesideModel("shunting_signal", surfaces_, {.height_m = 0.8}), 208},
+      {MakeBoard({0.7, 0.9}, 2.4, surfaces_), 52},
+      {MakeTriangularBoard({1.0, 0.85}, 2.4, surfaces_), 44},
+      {MakeLinesideModel("fouling_marker", surfaces_, {.height_m = 0.35}), 36},
+      {MakeLinesideModel("balise", surfaces_), 12},
+      {MakeLinesideModel("relay_box", surfaces_, {1.2, 0.5, 1.25}), 36},
+      {MakeLinesideModel("buffer_stop", surfaces_), 252},
+      {MakeLinesideModel("derailer", surfaces_), 36},
+      {MakeLinesideModel("lamp", surfaces_, {.height_m = 6.0}), 60},
+      {MakeLinesideModel("bench", surfaces_), 48},
+      {MakeLinesideModel("shelter", surfaces_, {4.0, 1.5, 2.5}), 108},
+      {MakeHalfBarrier(3.6, 0.0, surfaces_), 36 + 6 * 12},
+      {MakeLinesideModel("crossing_sign", surfaces_), 176}};
   for (const Row& row : rows) {
     EXPECT_EQ(row.model.num_triangles(), row.num_triangles) << row.model.name;
     EXPECT_EQ(CountBadTriangles(row.model), 0U) << row.model.name;
@@ -71,25 +72,26 @@ TEST_F(LinesideModels, AreMadeOfAsManySoundTrianglesAsTheirDocumentationSays) {
 
 TEST_F(LinesideModels, GiveSignalsTheHeightAndTheScreenOfTheirKind) {
   for (const double height_m : {3.5, 6.0}) {
-    const Model main = MakeMainSignal(height_m, surfaces_);
+    const Model main = MakeLinesideModel("main_signal", surfaces_, {.height_m = height_m});
     const Eigen::AlignedBox3d screen = BoundsOf(main, surfaces_.signal_screen);
     EXPECT_NEAR(main.Bounds().max().z(), height_m, kLinesideRounding_m);
-    EXPECT_NEAR(screen.sizes().y(), kMainScreen.width_m, kLinesideRounding_m);
-    EXPECT_NEAR(screen.sizes().z(), kMainScreen.height_m, kLinesideRounding_m);
+    EXPECT_NEAR(screen.sizes().y(), 0.80, kLinesideRounding_m);
+    EXPECT_NEAR(screen.sizes().z(), 1.40, kLinesideRounding_m);
     EXPECT_LT(screen.max().x(), 0.0) << "It must hang in front of the mast.";
-    const Model distant = MakeDistantSignal(height_m, surfaces_);
+    const Model distant = MakeLinesideModel("distant_signal", surfaces_, {.height_m = height_m});
     EXPECT_NEAR(distant.Bounds().max().z(), height_m, kLinesideRounding_m);
     EXPECT_NEAR(BoundsOf(distant, surfaces_.signal_board).sizes().y(), 0.45, kLinesideRounding_m);
     EXPECT_NEAR(BoundsOf(distant, surfaces_.signal_board).sizes().z(), 0.90, kLinesideRounding_m);
   }
-  const Model low = MakeShuntingSignal(0.8, surfaces_);
+  const Model low = MakeLinesideModel("shunting_signal", surfaces_, {.height_m = 0.8});
   EXPECT_NEAR(low.Bounds().max().z(), 0.8, kLinesideRounding_m);
-  EXPECT_NEAR(low.Bounds().sizes().y(), kShuntingScreen.width_m, kLinesideRounding_m);
+  EXPECT_NEAR(low.Bounds().sizes().y(), 0.50, kLinesideRounding_m);
 }
 
 TEST_F(LinesideModels, PutTheLampsIntoTheScreenInFrontOfEverythingElse) {
-  for (const Model& signal : {MakeMainSignal(5.5, surfaces_), MakeDistantSignal(4.5, surfaces_),
-                              MakeShuntingSignal(0.8, surfaces_)}) {
+  for (const Model& signal : {MakeLinesideModel("main_signal", surfaces_, {.height_m = 5.5}),
+                              MakeLinesideModel("distant_signal", surfaces_, {.height_m = 4.5}),
+                              MakeLinesideModel("shunting_signal", surfaces_, {.height_m = 0.8})}) {
     const Eigen::AlignedBox3d lamps = BoundsOf(signal, surfaces_.signal_lamp);
     const Eigen::AlignedBox3d screen = BoundsOf(signal, surfaces_.signal_screen);
     EXPECT_NEAR(lamps.min().x(), signal.Bounds().min().x(), kLinesideRounding_m) << signal.name;
@@ -109,17 +111,18 @@ TEST_F(LinesideModels, GiveBoardsTheSizeAskedForAndRetroreflectInFrontOnly) {
     EXPECT_LE(face.max().x(),
               BoundsOf(board, surfaces_.board_steel).min().x() + kLinesideRounding_m);
   }
-  EXPECT_NEAR(MakeFoulingMarker(0.35, surfaces_).Bounds().max().z(), 0.35, kLinesideRounding_m);
+  EXPECT_NEAR(MakeLinesideModel("fouling_marker", surfaces_, {.height_m = 0.35}).Bounds().max().z(),
+              0.35, kLinesideRounding_m);
 }
 
 TEST_F(LinesideModels, GiveTheBaliseTheNormsSize) {
-  const Eigen::AlignedBox3d box = MakeBalise(surfaces_).Bounds();
+  const Eigen::AlignedBox3d box = MakeLinesideModel("balise", surfaces_).Bounds();
   EXPECT_TRUE(box.sizes().isApprox(Vector3(0.358, 0.488, 0.050), kLinesideRounding_m));
   EXPECT_NEAR(box.min().z(), 0.0, kLinesideRounding_m);
 }
 
 TEST_F(LinesideModels, GiveTheRelayBoxTheSizeAskedFor) {
-  const Model box = MakeRelayBox({1.2, 0.5, 1.25}, surfaces_);
+  const Model box = MakeLinesideModel("relay_box", surfaces_, {1.2, 0.5, 1.25});
   EXPECT_NEAR(box.Bounds().sizes().x(), 1.2, kLinesideRounding_m);
   EXPECT_NEAR(box.Bounds().sizes().y(), 0.5, kLinesideRounding_m);
   EXPECT_NEAR(box.Bounds().max().z(), 1.25, kLinesideRounding_m);
@@ -127,7 +130,7 @@ TEST_F(LinesideModels, GiveTheRelayBoxTheSizeAskedFor) {
 }
 
 TEST_F(LinesideModels, MeetWagonsAtTheBufferStopWithBuffersAtUicHeightAndDistance) {
-  const Model stop = MakeBufferStop(surfaces_, 0.0);
+  const Model stop = MakeLinesideModel("buffer_stop", surfaces_);
   Eigen::AlignedBox3d left;
   for (const Vector3& p : VerticesOf(stop, surfaces_.buffer_frame)) {
     if (p.x() < 0.05 && p.y() > 0.0) left.extend(p);
@@ -138,19 +141,21 @@ TEST_F(LinesideModels, MeetWagonsAtTheBufferStopWithBuffersAtUicHeightAndDistanc
   EXPECT_NEAR(left.sizes().z(), 0.450, kLinesideRounding_m);
   const Eigen::AlignedBox3d box = stop.Bounds();
   EXPECT_NEAR(box.max().x(), kBufferStopLength_m, kLinesideRounding_m);
-  EXPECT_NEAR(box.sizes().y(), kBufferStopWidth_m, kLinesideRounding_m);
-  EXPECT_NEAR(box.max().z(), kBufferStopHeight_m, kLinesideRounding_m);
+  EXPECT_NEAR(box.sizes().y(), 2.5, kLinesideRounding_m);
+  EXPECT_NEAR(box.max().z(), 1.60, kLinesideRounding_m);
   EXPECT_NEAR(box.min().z(), 0.0, kLinesideRounding_m) << "It must stand on the rails.";
 }
 
 TEST_F(LinesideModels, GiveFurnitureItsHeightAboveTheGround) {
-  EXPECT_NEAR(MakeLamp(6.0, surfaces_).Bounds().max().z(), 6.0, kLinesideRounding_m);
-  EXPECT_NEAR(MakeLamp(6.0, surfaces_).Bounds().min().y(), -1.0, kLinesideRounding_m);
-  const Eigen::AlignedBox3d bench = MakeBench(surfaces_).Bounds();
+  EXPECT_NEAR(MakeLinesideModel("lamp", surfaces_, {.height_m = 6.0}).Bounds().max().z(), 6.0,
+              kLinesideRounding_m);
+  EXPECT_NEAR(MakeLinesideModel("lamp", surfaces_, {.height_m = 6.0}).Bounds().min().y(), -1.0,
+              kLinesideRounding_m);
+  const Eigen::AlignedBox3d bench = MakeLinesideModel("bench", surfaces_).Bounds();
   EXPECT_NEAR(bench.sizes().x(), 1.80, kLinesideRounding_m);
   EXPECT_NEAR(bench.sizes().y(), 0.55, kLinesideRounding_m);
   EXPECT_NEAR(bench.max().z(), 0.80, kLinesideRounding_m);
-  const Model shelter = MakeShelter({4.0, 1.5, 2.5}, surfaces_);
+  const Model shelter = MakeLinesideModel("shelter", surfaces_, {4.0, 1.5, 2.5});
   EXPECT_NEAR(shelter.Bounds().sizes().x(), 4.0, kLinesideRounding_m);
   EXPECT_NEAR(shelter.Bounds().sizes().y(), 1.5, kLinesideRounding_m);
   EXPECT_NEAR(shelter.Bounds().max().z(), 2.5, kLinesideRounding_m);
@@ -177,7 +182,7 @@ TEST_F(LinesideModels, CloseTheRoadWithTheBarriersBoomAndOpenItUpwards) {
 }
 
 TEST_F(LinesideModels, CrossTheBeamsOfStAndrewsAboveTheLamps) {
-  const Model sign = MakeCrossingSign(surfaces_);
+  const Model sign = MakeLinesideModel("crossing_sign", surfaces_);
   const Eigen::AlignedBox3d cross = BoundsOf(sign, surfaces_.barrier_white);
   EXPECT_NEAR(cross.center().z(), 3.25, kLinesideRounding_m);
   // A beam of 1.20 x 0.15 m at 55 degrees.

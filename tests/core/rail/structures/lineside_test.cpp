@@ -159,7 +159,7 @@ TEST(Lineside, LaysTheBaliseOnTheMiddleOfTheNearestSleeper) {
     EXPECT_NEAR(box.center().x(), 0.0, kChunkRounding_m);
     EXPECT_NEAR(box.center().y(), 0.0, kChunkRounding_m);
     EXPECT_NEAR(box.min().z(), top_m, kChunkRounding_m);
-    EXPECT_NEAR(box.sizes().x(), kBaliseLength_m, kChunkRounding_m);
+    EXPECT_NEAR(box.sizes().x(), 0.358, kChunkRounding_m);
   }
 }
 
