@@ -57,9 +57,11 @@ build_packages=(
   libfastcdr-dev
   libfastrtps-dev
   libgdal-dev
+  libosmium2-dev
   libpcap-dev
   libproj-dev
   libprotobuf-dev
+  libprotozero-dev
   libsqlite3-dev
   libssl-dev  # SHA-256 of the types of messages.
   libsystemd-dev  # Says to systemd that a stream is ready.

@@ -75,6 +75,8 @@ LIBRARY_OWNERS = {
     "zstd": (r"zstd\.h$", ("core/extras/ros/mcap",)),
     "LZ4": (r"lz4\w*\.h$", ("core/extras/ros/mcap",)),
     "Expat": (r"expat\.h$", ("generator/extras/import",)),
+    "libosmium": (r"osmium/", ("generator/extras/import",)),
+    "protozero": (r"protozero/", ("generator/extras/import",)),
 }
 # The libraries that a public header may require of the programs that include it.
 PUBLIC_LIBRARIES = re.compile(r"Eigen/|[a-z_0-9]+$|std(?:def|int)\.h$")
