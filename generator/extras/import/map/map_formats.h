@@ -68,10 +68,10 @@ inline constexpr double kMostLatitude_deg = 90.0;
 ///   elements, coordinates that are no degrees, and as OsmMapMaker does.
 [[nodiscard]] RailMap ReadOverpassJson(const std::filesystem::path& file);
 
-/// Reads OpenStreetMap's .osm.pbf with blobs that are zlib or plain; ways may have the places of
-/// their nodes.
-/// @throws InputError if the file is damaged, ends early or needs what is not read, and as
-///   OsmMapMaker does.
+/// Reads OpenStreetMap's .osm.pbf with blobs that are zlib, lz4 or plain; ways may have the places
+/// of their nodes.
+/// @throws InputError if the file is damaged or ends early, with the number of the block, or needs
+///   what is not read, and as OsmMapMaker does.
 [[nodiscard]] RailMap ReadOsmPbf(const std::filesystem::path& file);
 [[nodiscard]] bool IsOsmPbf(std::string_view begin);
 

@@ -1,12 +1,14 @@
-// The encoding of https://wiki.openstreetmap.org/wiki/PBF_Format.
-#include <cpl_conv.h>
-
+// The encoding of https://wiki.openstreetmap.org/wiki/PBF_Format: libosmium decompresses blobs, and
+// protozero takes messages apart. libosmium's elements do not serve: they have places to 1e-7
+// degrees, those beyond 214 degrees elsewhere, and repeat texts, by which 3 kB become 4 GB.
+#define OSMIUM_WITH_LZ4
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <optional>
+#include <osmium/io/detail/pbf_decoder.hpp>
 #include <utility>
 #include <vector>
 
@@ -19,70 +21,45 @@
 namespace railcast {
 namespace {
 
-[[noreturn]] void FailDamaged() {
-  throw InputError("must be a .pbf file to its end (got damaged data)");
-}
-
-std::string_view TakeBytes(std::string_view& rest, std::uint64_t num) {
-  if (num > rest.size()) FailDamaged();
-  const std::string_view bytes = rest.substr(0, num);
-  rest.remove_prefix(num);
-  return bytes;
-}
-
-std::uint64_t TakeVarint(std::string_view& rest) {
-  std::uint64_t value = 0;
-  for (unsigned shift = 0; shift < 64; shift += 7) {
-    const auto byte = static_cast<unsigned char>(TakeBytes(rest, 1).front());
-    value |= std::uint64_t{byte & 0x7FU} << shift;
-    if (byte < 0x80) return value;
-  }
-  FailDamaged();
-}
-
-std::int64_t Unzigzagged(std::uint64_t value) {
-  return static_cast<std::int64_t>(value >> 1U) ^ -static_cast<std::int64_t>(value & 1U);
-}
+using osmium::io_error;
+using protozero::data_view;
 
 struct PbfField {
-  std::uint64_t number{};
+  std::uint32_t number{};
   std::uint64_t value{};   ///< Of a number.
-  std::string_view bytes;  ///< Of anything else.
+  data_view bytes{"", 0};  ///< Of a message, a text or packed numbers.
 };
 
 /// Visits the fields of a message.
 template <class Visit>
-void VisitFields(std::string_view message, const Visit& visit) {
-  constexpr std::array<std::uint64_t, 6> kFixedBytes = {0, 8, 0, 0, 0, 4};
-  while (!message.empty()) {
-    const std::uint64_t key = TakeVarint(message);
-    PbfField field{key >> 3U, 0, {}};
-    const std::uint64_t wire_type = key & 7U;
-    if (wire_type == 0) {
-      field.value = TakeVarint(message);
-    } else if (wire_type == 2) {
-      field.bytes = TakeBytes(message, TakeVarint(message));
-    } else if (wire_type == 1 || wire_type == 5) {
-      field.bytes = TakeBytes(message, kFixedBytes.at(wire_type));
+void VisitFields(data_view message, const Visit& visit) {
+  for (protozero::pbf_reader reader(message); reader.next();) {
+    PbfField field{.number = reader.tag()};
+    if (reader.wire_type() == protozero::pbf_wire_type::varint) {
+      field.value = reader.get_uint64();
+    } else if (reader.wire_type() == protozero::pbf_wire_type::length_delimited) {
+      field.bytes = reader.get_view();
     } else {
-      FailDamaged();
+      reader.skip();
     }
     visit(field);
   }
 }
 
-std::vector<std::uint64_t> Numbers(std::string_view packed) {
+std::vector<std::uint64_t> Numbers(data_view packed) {
   std::vector<std::uint64_t> numbers;
-  while (!packed.empty()) numbers.push_back(TakeVarint(packed));
+  const char* at = packed.data();
+  const char* end = at + packed.size();
+  while (at != end) numbers.push_back(protozero::decode_varint(&at, end));
   return numbers;
 }
 
 /// Numbers of which each is given by its difference from the one before.
-std::vector<std::int64_t> Sums(std::string_view packed) {
+std::vector<std::int64_t> Sums(data_view packed) {
   std::vector<std::int64_t> sums;
   std::uint64_t sum = 0;  // Damaged ones may run over.
-  while (!packed.empty()) {
-    sum += static_cast<std::uint64_t>(Unzigzagged(TakeVarint(packed)));
+  for (const std::uint64_t number : Numbers(packed)) {
+    sum += static_cast<std::uint64_t>(protozero::decode_zigzag64(number));
     sums.push_back(static_cast<std::int64_t>(sum));
   }
   return sums;
@@ -90,14 +67,14 @@ std::vector<std::int64_t> Sums(std::string_view packed) {
 
 /// What is common to the elements of a block.
 struct PbfBlock {
-  std::vector<std::string_view> texts;
+  std::vector<data_view> texts;
   std::int64_t granularity_ndeg = 100;
   std::int64_t longitude_ndeg = 0;  ///< Of the origin.
   std::int64_t latitude_ndeg = 0;
 
-  [[nodiscard]] std::string TextAt(std::uint64_t index) const {
-    if (index >= texts.size()) FailDamaged();
-    return std::string(texts[index]);
+  void AddTag(std::uint64_t key, std::uint64_t value, MapTags& tags) const {
+    if (key >= texts.size() || value >= texts.size()) throw io_error("no such text");
+    tags.emplace(texts[key], texts[value]);
   }
   [[nodiscard]] Eigen::Vector2d Place_deg(std::int64_t longitude, std::int64_t latitude) const {
     const auto degrees = [&](std::int64_t origin_ndeg, std::int64_t value, double most_deg) {
@@ -117,32 +94,30 @@ struct PbfBlock {
   }
 };
 
-/// An element other than a dense node.
+/// A node, a way or a relation.
 struct PbfElement {
   std::int64_t id{};
   MapTags tags;
   bool is_deleted = false;
-  std::int64_t longitude{};
-  std::int64_t latitude{};
-  OsmWay way;
+  std::vector<std::int64_t> nodes;
+  std::vector<std::int64_t> longitudes;  ///< Of a node, or of those of a way.
+  std::vector<std::int64_t> latitudes;
 };
 
 /// The fields of a group.
-constexpr std::uint64_t kNode = 1;
-constexpr std::uint64_t kDenseNodes = 2;
-constexpr std::uint64_t kWay = 3;
-constexpr std::uint64_t kRelation = 4;
+constexpr std::uint32_t kNode = 1;
+constexpr std::uint32_t kDenseNodes = 2;
+constexpr std::uint32_t kWay = 3;
+constexpr std::uint32_t kRelation = 4;
 
-PbfElement ElementOf(const PbfBlock& block, std::string_view message, std::uint64_t kind) {
-  const bool is_node = kind == kNode;
+PbfElement ElementOf(const PbfBlock& block, data_view message, std::uint32_t kind) {
   PbfElement element;
   std::vector<std::uint64_t> keys;
   std::vector<std::uint64_t> values;
-  std::vector<std::int64_t> longitudes;
-  std::vector<std::int64_t> latitudes;
   VisitFields(message, [&](const PbfField& field) {
+    const std::int64_t number = protozero::decode_zigzag64(field.value);
     if (field.number == 1) {
-      element.id = is_node ? Unzigzagged(field.value) : static_cast<std::int64_t>(field.value);
+      element.id = kind == kNode ? number : static_cast<std::int64_t>(field.value);
     } else if (field.number == 2) {
       keys = Numbers(field.bytes);
     } else if (field.number == 3) {
@@ -151,27 +126,31 @@ PbfElement ElementOf(const PbfBlock& block, std::string_view message, std::uint6
       VisitFields(field.bytes, [&](const PbfField& info) {
         if (info.number == 6) element.is_deleted = info.value == 0;
       });
-    } else if (is_node && field.number == 8) {
-      element.latitude = Unzigzagged(field.value);
-    } else if (is_node && field.number == 9) {
-      element.longitude = Unzigzagged(field.value);
+    } else if (kind == kNode && field.number == 8) {
+      element.latitudes = {number};
+    } else if (kind == kNode && field.number == 9) {
+      element.longitudes = {number};
     } else if (kind == kWay && field.number == 8) {
-      element.way.nodes = Sums(field.bytes);
+      element.nodes = Sums(field.bytes);
     } else if (kind == kWay && field.number == 9) {
-      latitudes = Sums(field.bytes);
+      element.latitudes = Sums(field.bytes);
     } else if (kind == kWay && field.number == 10) {
-      longitudes = Sums(field.bytes);
+      element.longitudes = Sums(field.bytes);
     }
   });
-  if (keys.size() != values.size() || latitudes.size() != longitudes.size()) FailDamaged();
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    element.tags.emplace(block.TextAt(keys[i]), block.TextAt(values[i]));
-  }
-  if (latitudes.size() != element.way.nodes.size()) return element;
-  for (std::size_t i = 0; i < latitudes.size(); ++i) {
-    element.way.drawn_deg.emplace_back(block.Place_deg(longitudes[i], latitudes[i]));
-  }
+  if (keys.size() != values.size()) throw io_error("keys without values");
+  if (element.latitudes.size() != element.longitudes.size()) throw io_error("half a place");
+  for (std::size_t i = 0; i < keys.size(); ++i) block.AddTag(keys[i], values[i], element.tags);
   return element;
+}
+
+OsmWay WayOf(const PbfBlock& block, PbfElement& element) {
+  OsmWay way{element.id, std::move(element.nodes), {}, std::move(element.tags)};
+  if (element.latitudes.size() != way.nodes.size()) return way;
+  for (std::size_t i = 0; i < way.nodes.size(); ++i) {
+    way.drawn_deg.emplace_back(block.Place_deg(element.longitudes[i], element.latitudes[i]));
+  }
+  return way;
 }
 
 void RefuseFault(const char* kind, std::int64_t id, const std::optional<Fault>& fault) {
@@ -182,30 +161,32 @@ void RefuseFault(const char* kind, std::int64_t id, const std::optional<Fault>& 
 
 /// Visits the fields of a block's groups of elements.
 template <class Visit>
-void VisitGroups(std::string_view data, const Visit& visit) {
+void VisitGroups(data_view data, const Visit& visit) {
   PbfBlock block;
-  std::vector<std::string_view> groups;
+  std::vector<data_view> groups;
   VisitFields(data, [&](const PbfField& field) {
+    const auto number = static_cast<std::int64_t>(field.value);
     if (field.number == 1) {
       VisitFields(field.bytes, [&](const PbfField& text) { block.texts.push_back(text.bytes); });
     } else if (field.number == 2) {
       groups.push_back(field.bytes);
     } else if (field.number == 17) {
-      block.granularity_ndeg = static_cast<std::int64_t>(field.value);
+      block.granularity_ndeg = number;
     } else if (field.number == 19) {
-      block.latitude_ndeg = static_cast<std::int64_t>(field.value);
+      block.latitude_ndeg = number;
     } else if (field.number == 20) {
-      block.longitude_ndeg = static_cast<std::int64_t>(field.value);
+      block.longitude_ndeg = number;
     }
   });
-  for (const std::string_view group : groups) {
+  for (const data_view group : groups) {
     VisitFields(group, [&](const PbfField& field) { visit(block, field); });
   }
 }
+
 /// Reads a file's ways first, then the nodes that they need: most of a map are others.
 class OsmPbfReader {
  public:
-  void ReadWays(std::string_view data) {
+  void ReadWays(data_view data) {
     VisitGroups(data, [&](const PbfBlock& block, const PbfField& field) {
       if (field.number != kWay && field.number != kRelation) return;
       const bool is_way = field.number == kWay;
@@ -214,24 +195,25 @@ class OsmPbfReader {
         const char* kind = is_way ? "way" : "relation";
         RefuseFault(kind, element.id, maker_.AddDeleted(kind, element.id, element.tags));
       } else if (is_way) {
-        element.way.id = element.id;
-        element.way.tags = std::move(element.tags);
-        RefuseFault("way", element.id, maker_.AddWay(std::move(element.way)));
+        RefuseFault("way", element.id, maker_.AddWay(WayOf(block, element)));
       } else {
         maker_.AddRelation(element.id, element.tags);
       }
     });
   }
 
-  void ReadNodes(std::string_view data) {
+  void ReadNodes(data_view data) {
     VisitGroups(data, [&](const PbfBlock& block, const PbfField& field) {
       if (field.number == kDenseNodes) ReadDense(block, field.bytes);
       if (field.number != kNode) return;
       PbfElement node = ElementOf(block, field.bytes, kNode);
       if (node.is_deleted) {
         RefuseFault("node", node.id, maker_.AddDeleted("node", node.id, node.tags));
+      } else if (node.latitudes.empty()) {
+        throw io_error("a node without place");
       } else {
-        AddNode(node.id, block.Place_deg(node.longitude, node.latitude), std::move(node.tags));
+        AddNode(node.id, block.Place_deg(node.longitudes[0], node.latitudes[0]),
+                std::move(node.tags));
       }
     });
   }
@@ -244,7 +226,7 @@ class OsmPbfReader {
     RefuseFault("node", id, maker_.AddNode(id, place_deg, std::move(tags)));
   }
 
-  void ReadDense(const PbfBlock& block, std::string_view message) {
+  void ReadDense(const PbfBlock& block, data_view message) {
     std::vector<std::int64_t> ids;
     std::vector<std::int64_t> latitudes;
     std::vector<std::int64_t> longitudes;
@@ -260,13 +242,15 @@ class OsmPbfReader {
         if (info.number == 6) visible = Numbers(info.bytes);
       });
     });
-    if (latitudes.size() != ids.size() || longitudes.size() != ids.size()) FailDamaged();
+    if (latitudes.size() != ids.size() || longitudes.size() != ids.size()) {
+      throw io_error("nodes without places");
+    }
     std::size_t word = 0;  // Keys and values in turn; 0 ends those of a node.
     for (std::size_t i = 0; i < ids.size(); ++i) {
       MapTags tags;
       for (; word < words.size() && words[word] != 0; word += 2) {
-        if (word + 1 == words.size()) FailDamaged();
-        tags.emplace(block.TextAt(words[word]), block.TextAt(words[word + 1]));
+        if (word + 1 == words.size()) throw io_error("a key without a value");
+        block.AddTag(words[word], words[word + 1], tags);
       }
       ++word;
       if (i < visible.size() && visible[i] == 0) {
@@ -280,85 +264,72 @@ class OsmPbfReader {
   OsmMapMaker maker_;
 };
 
-/// The data of a blob, decompressed.
-std::string DataOfBlob(std::string_view blob) {
-  constexpr std::uint64_t kMostBytes = 32 << 20;  // By the format.
-  constexpr auto kCompressions =
-      std::to_array<std::string_view>({"lzma", "bzip2", "lz4", "zstd"});  // Fields from 4 on.
-  std::string data;
-  std::string_view zlib;
-  std::uint64_t raw_size = 0;
-  bool has_data = false;
-  VisitFields(blob, [&](const PbfField& field) {
-    if (field.number == 1) data = field.bytes;
-    if (field.number == 2) raw_size = field.value;
-    if (field.number == 3) zlib = field.bytes;
-    has_data = has_data || field.number == 1 || field.number == 3;
-    if (field.number < 4 || field.number >= 4 + kCompressions.size()) return;
-    throw InputError(
-        "must have blobs that are zlib or plain (osmium cat IN.pbf -o OUT.pbf makes "
-        "them so) (got " +
-        std::string(kCompressions[field.number - 4]) + ")");
-  });
-  if (!has_data) FailDamaged();
-  if (zlib.empty()) return data;
-  if (raw_size > kMostBytes) FailDamaged();
-  data.resize(raw_size);
-  std::size_t num = 0;
-  if (CPLZLibInflate(zlib.data(), zlib.size(), data.data(), data.size(), &num) == nullptr ||
-      num != raw_size) {
-    FailDamaged();
-  }
-  return data;
-}
-
 /// What a file needs of its reader, by its header.
-void CheckFeatures(std::string_view header) {
+void CheckFeatures(data_view header) {
   constexpr auto kKnown =
       std::to_array<std::string_view>({"OsmSchema-V0.6", "DenseNodes", "LocationsOnWays"});
   VisitFields(header, [&](const PbfField& field) {
-    if (field.number != 4 || std::ranges::find(kKnown, field.bytes) != kKnown.end()) return;
+    const std::string feature(field.bytes);
+    if (field.number != 4 || std::ranges::find(kKnown, feature) != kKnown.end()) return;
     throw InputError(
         "must need no features but OsmSchema-V0.6, DenseNodes and LocationsOnWays (got " +
-        Quoted(field.bytes) + ")");
+        Quoted(feature) + ")");
   });
 }
 
 /// The type of blocks that hold elements.
 constexpr std::string_view kElements = "OSMData";
 
-/// Visits the blocks behind the header, with their types.
-void VisitBlocks(
-    const std::filesystem::path& file,
-    const std::function<void(const std::string& type, const std::string& blob)>& visit) {
-  constexpr std::size_t kMostHeader = 64 << 10;  // By the format, as kMostBlob.
-  constexpr std::size_t kMostBlob = 32 << 20;
-  std::ifstream stream = OpenInput(file);
-  const auto read = [&](std::size_t num) {
+/// Takes a block's type, and its data if these are elements.
+using TakeBlock = std::function<void(const std::string& type, data_view data)>;
+
+void ReadBlock(std::istream& stream, const TakeBlock& take) {
+  const auto read = [&](std::uint64_t num, std::uint64_t most) {
+    if (num > most) throw io_error("larger than the format allows");
     std::string bytes(num, '\0');
     stream.read(bytes.data(), static_cast<std::streamsize>(num));
-    if (static_cast<std::size_t>(stream.gcount()) < num) FailDamaged();
+    if (!stream) throw io_error("the file ends");
     return bytes;
   };
-  while (stream.peek() != std::ifstream::traits_type::eof()) {
-    std::size_t header_size = 0;
-    for (const char byte : read(4))
-      header_size = header_size << 8U | static_cast<unsigned char>(byte);
-    if (header_size > kMostHeader) FailDamaged();
-    const std::string header = read(header_size);
-    std::string type;
-    std::uint64_t blob_size = 0;
-    VisitFields(header, [&](const PbfField& field) {
-      if (field.number == 1) type = field.bytes;
-      if (field.number == 3) blob_size = field.value;
+  std::uint64_t header_size = 0;
+  for (const char byte : read(4, 4))
+    header_size = header_size << 8U | static_cast<unsigned char>(byte);
+  const std::string header = read(header_size, osmium::io::detail::max_blob_header_size);
+  std::string type;
+  std::uint64_t blob_size = 0;
+  VisitFields(header, [&](const PbfField& field) {
+    if (field.number == 1) type = std::string(field.bytes);
+    if (field.number == 3) blob_size = field.value;
+  });
+  const std::string blob = read(blob_size, osmium::io::detail::max_uncompressed_blob_size);
+  std::string room;
+  if (type == "OSMHeader") {
+    CheckFeatures(osmium::io::detail::decode_blob(blob, room));
+  } else if (type == kElements) {
+    take(type, osmium::io::detail::decode_blob(blob, room));
+  } else {
+    take(type, {});
+  }
+}
+
+/// Takes the blocks behind the header.
+void TakeBlocks(const std::filesystem::path& file, const TakeBlock& take) {
+  std::ifstream stream = OpenInput(file);
+  for (int block = 1; stream.peek() != std::ifstream::traits_type::eof(); ++block) {
+    const auto refuse = [&](const char* rule, const std::exception& error) {
+      throw InputError({Fault{"", rule, ShownText(error.what())}});
+    };
+    AtPlace("block " + std::to_string(block) + ": ", [&] {
+      try {
+        ReadBlock(stream, take);
+      } catch (const osmium::pbf_error& error) {
+        refuse("must be zlib, lz4 or plain (osmium cat IN.pbf -o OUT.pbf makes it so)", error);
+      } catch (const osmium::io_error& error) {
+        refuse("must be whole", error);
+      } catch (const protozero::exception& error) {
+        refuse("must be whole", error);
+      }
     });
-    if (blob_size > kMostBlob) FailDamaged();
-    const std::string blob = read(blob_size);
-    if (type == "OSMHeader") {
-      CheckFeatures(DataOfBlob(blob));
-    } else {
-      visit(type, blob);
-    }
   }
 }
 
@@ -373,15 +344,15 @@ RailMap ReadOsmPbf(const std::filesystem::path& file) {
   return AtPlace(ShownPath(file) + ": ", [&] {
     OsmPbfReader reader;
     std::map<std::string, std::uint64_t> unread;  // Numbers of blocks, by their type.
-    VisitBlocks(file, [&](const std::string& type, const std::string& blob) {
+    TakeBlocks(file, [&](const std::string& type, data_view data) {
       if (type == kElements) {
-        reader.ReadWays(DataOfBlob(blob));
+        reader.ReadWays(data);
       } else {
         ++unread[type];
       }
     });
-    VisitBlocks(file, [&](const std::string& type, const std::string& blob) {
-      if (type == kElements) reader.ReadNodes(DataOfBlob(blob));
+    TakeBlocks(file, [&](const std::string& type, data_view data) {
+      if (type == kElements) reader.ReadNodes(data);
     });
     for (const auto& [type, number] : unread) {
       reader.maker().Tell(RemarkKind::kExtensionUnread, "", number, "block " + Quoted(type));

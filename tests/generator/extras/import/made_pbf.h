@@ -27,6 +27,8 @@ inline std::string BytesField(int field, const std::string& value) {
 
 /// The fields of a blob that hold its data, by how this is compressed.
 inline constexpr int kRaw = 1;
+inline constexpr int kZlib = 3;
+inline constexpr int kLzma = 4;
 inline constexpr int kLz4 = 6;
 inline constexpr int kZstd = 7;
 
