@@ -52,6 +52,11 @@ auto VisitNumberType(NumberType type, Visitor&& visit) {
   return visit(double{});
 }
 
+/// The size of a number, bytes.
+[[nodiscard]] inline std::uint32_t SizeOf(NumberType type) {
+  return VisitNumberType(type, [](auto zero) { return std::uint32_t{sizeof zero}; });
+}
+
 /// The two names of each of the first eight types in PLY files, of which the first are written.
 inline constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kPlyTypeNames = {
     {{"char", "int8"},

@@ -22,11 +22,6 @@ struct PCLPointCloud2;
 
 namespace railcast {
 
-/// The size of a number, bytes.
-[[nodiscard]] inline std::uint32_t SizeOf(NumberType type) {
-  return VisitNumberType(type, [](auto zero) { return std::uint32_t{sizeof zero}; });
-}
-
 /// The type of a C++ number.
 template <typename Number>
 [[nodiscard]] constexpr NumberType NumberTypeOf() {

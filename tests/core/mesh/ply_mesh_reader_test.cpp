@@ -99,7 +99,7 @@ TEST(ReadPlyMesh, SaysWhereAFileEnds) {
   EXPECT_EQ(PlyComplaint(whole.substr(0, whole.size() - 150)),
             "p.ply: ends within its 5 elements vertex");
   EXPECT_EQ(PlyComplaint(whole.substr(0, whole.find("property double x"))),
-            "p.ply: its header has no end_header line");
+            "p.ply: is no PLY file: its header has no end_header line");
 }
 
 TEST(ReadPlyMesh, RefusesACountThatWouldFillTheMemory) {
@@ -132,17 +132,56 @@ TEST(ReadPlyMesh, RefusesWhatIsNoNumberAndNoVertex) {
 
 TEST(ReadPlyMesh, RefusesAHeaderOfAnotherFormat) {
   EXPECT_EQ(PlyComplaint("ply\nformat binary 1.0\nend_header\n"),
-            "p.ply: format: must be ascii, binary_little_endian or binary_big_endian (got "
-            "\"binary\")");
-  EXPECT_EQ(PlyComplaint("ply\nend_header\n"), "p.ply: its header has no format line");
+            "p.ply: format: must be ascii, binary_little_endian or binary_big_endian (got binary)");
+  EXPECT_EQ(PlyComplaint("ply\nend_header\n"), "p.ply: format: missing");
   EXPECT_EQ(PlyComplaint("ply\nformat ascii 1.0\nelement vertex many\nend_header\n"),
-            "p.ply: its header must have lines of the PLY format (got \"element vertex many\")");
+            "p.ply: element vertex: must be a whole number below 2^32 (got many)");
   EXPECT_EQ(PlyComplaint("ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\nend_header\n"),
-            "p.ply: its header must have lines of the PLY format (got \"property half x\")");
+            "p.ply: property x: unknown type half");
+  EXPECT_EQ(PlyComplaint("ply\nformat ascii 1.0\nproperty float x\nend_header\n"),
+            "p.ply: is no PLY file: a header line begins with property");
   EXPECT_EQ(
       PlyComplaint("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
                    "end_header\n1 1\n"),
       "p.ply: element vertex: must have the properties x, y and z");
+}
+
+/// A triangle in text behind the first lines of a header.
+std::string TriangleBehind(const std::string& first_lines) {
+  return first_lines +
+         "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+         "element face 1\nproperty list uchar int vertex_index\nend_header\n"
+         "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+}
+
+TEST(ReadPlyMesh, WantsItsFirstLineToBePlyAlone) {
+  EXPECT_EQ(PlyComplaint(TriangleBehind("ply\nformat ascii 1.0\n")), "no error");
+  EXPECT_EQ(PlyComplaint(TriangleBehind("ply\r\nformat ascii 1.0\r\n")), "no error");
+  for (const std::string first : {"", "PLY", "ply ", " ply", "ply 1.0", "format"}) {
+    EXPECT_EQ(PlyComplaint(TriangleBehind(first + "\nformat ascii 1.0\n")),
+              "p.ply: is no PLY file: its first line must be \"ply\"")
+        << first;
+  }
+}
+
+TEST(ReadPlyMesh, WantsAVersionBehindItsFormatAndNoMore) {
+  for (const std::string line : {"format ascii", "format ascii 1.0 x"}) {
+    EXPECT_EQ(PlyComplaint(TriangleBehind("ply\n" + line + "\n")),
+              "p.ply: format: must have a version and nothing behind it (got \"" + line + "\")");
+  }
+  EXPECT_EQ(
+      PlyComplaint(TriangleBehind("ply\nformat\n")),
+      "p.ply: format: must be ascii, binary_little_endian or binary_big_endian (got nothing)");
+}
+
+TEST(ReadPlyMesh, TakesMaterialsFromCommentsAndUnitsFromNone) {
+  const PolygonSoup soup =
+      ReadPlyMesh("p.ply",
+                  TriangleBehind("ply\nformat ascii 1.0\ncomment File units = millimeters\n"
+                                 "comment material shell\nobj_info material of_scan\n"),
+                  kLargest);
+  EXPECT_EQ(soup.materials, std::vector<std::string>{"shell"});
+  EXPECT_EQ(soup.points[1], Vector3::UnitX());
 }
 
 /// A fan of triangles about the first vertex, each with a shade of its own.

@@ -139,6 +139,30 @@ TEST(ParsePlyFile, NamesTheFaultOfADamagedFile) {
             "binary_middle_endian)");
   EXPECT_EQ(PlyFault(Replaced(sound, "format binary_little_endian 1.0\n", "")),
             "a.ply: format: missing");
+  EXPECT_EQ(PlyFault(Replaced(sound, "end_header", std::string(100, 'x'))),
+            "a.ply: is no PLY file: a header line begins with " + std::string(60, 'x') + "...");
+}
+
+TEST(ParsePlyFile, WantsItsFirstLineToBePlyAlone) {
+  const std::string rest = PlyExample().substr(std::string_view("ply").size());
+  EXPECT_EQ(PlyFault("ply" + rest), "no error");
+  EXPECT_EQ(PlyFault("ply\r" + rest), "no error");
+  for (const char* first : {"", "PLY", "ply ", " ply", "ply 1.0", "format"}) {
+    EXPECT_EQ(PlyFault(first + rest), "a.ply: is no PLY file: its first line must be \"ply\"")
+        << first;
+  }
+}
+
+TEST(ParsePlyFile, WantsAVersionBehindItsFormatAndNoMore) {
+  const std::string sound = PlyExample();
+  for (const std::string line :
+       {"format binary_little_endian", "format binary_little_endian 1.0 x"}) {
+    EXPECT_EQ(PlyFault(Replaced(sound, "format binary_little_endian 1.0", line)),
+              "a.ply: format: must have a version and nothing behind it (got \"" + line + "\")");
+  }
+  EXPECT_EQ(
+      PlyFault(Replaced(sound, "format binary_little_endian 1.0", "format")),
+      "a.ply: format: must be ascii, binary_little_endian or binary_big_endian (got nothing)");
 }
 
 TEST(ReadPly, NamesThePointWhoseTextIsDamaged) {
