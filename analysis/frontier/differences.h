@@ -25,9 +25,9 @@ inline constexpr std::size_t kLeastDetailFrames = 10;
 struct DetailDifference {
   std::uint32_t label{};
   int bin{};           ///< In steps of kDetailBin_m.
-  Estimate first;      ///< Of the number of the nearest echoes of their firings.
-  Estimate further;    ///< Of the number of all others.
-  Estimate intensity;  ///< Of the mean intensity of the first ones.
+  Estimate first;      ///< Difference in the number of nearest echoes of their firings.
+  Estimate further;    ///< Difference in the number of all others.
+  Estimate intensity;  ///< Difference in the mean intensity of the first ones.
 };
 
 /// The differences wherever there are enough first echoes in full detail, by label and by range.

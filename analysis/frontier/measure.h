@@ -117,9 +117,10 @@ struct RowResult {
   /// Median time divided by that of the raw trace in the same round, for each round that timed the
   /// row.
   std::vector<double> ratios;
-  std::vector<double> processor_ms{};  ///< Of the processor for all times of times_ms, by frame.
-  std::vector<double> spreads{};       ///< 99 % quantile over median of the times of each frame.
-  /// Of a row with scene detail `auto`, against the same row in full detail.
+  /// The processor's time for all times of times_ms, by frame.
+  std::vector<double> processor_ms{};
+  std::vector<double> spreads{};  ///< 99 % quantile over median of the times of each frame.
+  /// For a row with scene detail `auto`, against the same row in full detail.
   std::vector<DetailDifference> detail_differences{};
 
   [[nodiscard]] double p50_ms() const { return TimeQuantile_ms(0.5); }
@@ -134,7 +135,7 @@ struct RowResult {
 
 /// Whether a machine had time for what was timed on it.
 struct TimingConditions {
-  /// Of the time of one thread, what the processor spent on it; 1 with several threads, whose waits
+  /// Share of one thread's time that the processor spent on it; 1 with several threads, whose waits
   /// for each other tell nothing.
   double processor_share = 1.0;
   /// 99 % quantile over median of the times of the raw trace, on the frame where that is greatest.

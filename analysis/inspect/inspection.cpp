@@ -133,7 +133,7 @@ class RingSums {
       sums[i].elevation_deg.Add(rings[i].elevation_deg);
     }
   }
-  /// Those of most frames; of as many, those with the most rows.
+  /// The rings of the most frames; if as many have others, those with the most rows.
   [[nodiscard]] std::vector<InspectedRing> Most() const {
     std::pair<std::size_t, std::vector<InspectedRing>> most;
     for (const auto& [num_rows, sums] : sums_) {
@@ -195,7 +195,7 @@ RecordingLook Inspect(Recording& recording, std::size_t most_frames) {
     }
     const RecordedFrame recorded = (*read)();
     rings.Add(recorded.frame.rows, LookAtFrame(recorded, inspection));
-    // Of twice as many frames as a search takes, since half of them may be odd.
+    // Twice as many frames as a search takes, since half of them may be odd.
     if (searches.size() < 2 * SensorSearch::kMostFrames) searches.emplace_back().Add(recorded);
     steps_m.push_back(RangeStep_m(recorded));
     motion.Add(recorded, inspection.num_frames - 1, inspection);

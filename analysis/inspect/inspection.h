@@ -21,7 +21,7 @@ namespace railcast {
 /// A ring of a recording's frames: a row of their grids, or what their field `ring` numbers.
 struct InspectedRing {
   std::uint64_t num_points{};
-  Moments elevation_deg;  ///< Of points 3 m away and farther, positive upward.
+  Moments elevation_deg;  ///< Only of points 3 m away and farther, positive upward.
 };
 
 /// Values of a field, over all points.
@@ -56,9 +56,9 @@ struct InspectedFrame {
   std::uint64_t num_sparsest{};  ///< Points of the ring of these that has the fewest.
   bool is_grid{};
   std::int64_t stamp_ns{};
-  std::uint64_t hash{};                ///< Of positions and intensities.
+  std::uint64_t hash{};                ///< Hash of positions and intensities.
   std::optional<std::size_t> same_as;  ///< The first frame with the same.
-  /// Of the sensor above the ground (core/points/level_areas.h); NaN if it is not found.
+  /// Height of the sensor above the ground (core/points/level_areas.h); NaN if it is not found.
   double height_m = std::numeric_limits<double>::quiet_NaN();
 
   std::vector<std::string> odd;  ///< JudgeFrames(): "has 200 points, where others have 57,734".
@@ -90,19 +90,19 @@ struct RecordingLook {
   std::size_t num_with_objects{};
   bool is_cut_short{};  ///< Whether the recording goes on.
   std::uint64_t num_points{};
-  std::string why_no_grid;                    ///< Of the first that is none.
+  std::string why_no_grid;                    ///< Why the first frame that is none is no grid.
   std::map<std::string, std::size_t> fields;  ///< Number of frames that have it.
   std::vector<std::string> foreign;           ///< Fields of others, of the first frame.
-  Vector3 origin_m = Vector3::Zero();         ///< Of the first frame.
-  std::string why_no_ranges;                  ///< Of the first frame that has none.
+  Vector3 origin_m = Vector3::Zero();         ///< Origin of the first frame.
+  std::string why_no_ranges;                  ///< Why the first frame that has none lacks them.
 
   std::vector<std::int64_t> stamps_ns;
-  std::vector<double> durations_s;           ///< Of frames whose points have times.
-  std::vector<Transform> world_from_sensor;  ///< Of frames that have one.
-  std::vector<std::int64_t> pose_stamps_ns;  ///< Of the same frames.
-  std::vector<MotionBetween> motions;        ///< Of some pairs of frames with poses.
+  std::vector<double> durations_s;           ///< For frames whose points have times.
+  std::vector<Transform> world_from_sensor;  ///< For frames that have one.
+  std::vector<std::int64_t> pose_stamps_ns;  ///< For the same frames.
+  std::vector<MotionBetween> motions;        ///< For some pairs of frames with poses.
 
-  /// Of the frames whose grids have as many rows as most: rows that are told by elevations have
+  /// From the frames whose grids have as many rows as most: rows that are told by elevations have
   /// other numbers where a ring is missing.
   std::vector<InspectedRing> rings;
   /// What the points show of the first ten frames whose points are not odd; of the first ten if

@@ -17,7 +17,7 @@ namespace {
 /// @pre There are at least as many channels as rings.
 double LeastSquares_deg2(const std::vector<double>& rings_deg,
                          const std::vector<double>& channels_deg) {
-  // Of the first channels, for the rings so far.
+  // The least sums with the first channels, for the rings so far.
   std::vector<double> least_deg2(channels_deg.size() + 1, 0.0);
   for (const double ring_deg : rings_deg) {
     std::vector<double> with_ring_deg2(least_deg2.size(), std::numeric_limits<double>::infinity());

@@ -206,7 +206,7 @@ class PositionWriter {
   std::string_view BytesOfBuffer(const json& index, const std::string& place) {
     const json& buffer = ValueIn(gltf_["buffers"], index);
     const json& uri = ValueIn(buffer, "uri");
-    if (!uri.is_string()) Fail(place + ": must have a buffer that is there");
+    if (!uri.is_string()) Fail(place + ": must name a buffer that the file has");
     const auto name = uri.get<std::string>();
     constexpr std::string_view kBegin = ";base64,";
     if (name.starts_with("data:") && name.find(kBegin) != std::string::npos) {
@@ -219,7 +219,7 @@ class PositionWriter {
     }
     for (const FileBeside& beside : source_.beside)
       if (beside.name == FileOfUri(name)) return beside.bytes;
-    Fail(place + ": must have a buffer that is there (got " + Quoted(name) + ")");
+    Fail(place + ": must name a buffer that the file has (got " + Quoted(name) + ")");
   }
 
   json& gltf_;

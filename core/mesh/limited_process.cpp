@@ -55,8 +55,8 @@ void SetLimit(__rlimit_resource resource, rlim_t most) {
   ::setrlimit(resource, &limit);
 }
 
-/// Of the new process: what it has of its parent's is taken away, but for the pipe, which becomes
-/// kPipe.
+/// Runs in the new process: what it has of its parent's is taken away, but for the pipe, which
+/// becomes kPipe.
 void Enclose(int pipe, const AddressSpace& space, std::uint64_t time_s) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   // SIGABRT and those of faults, too: a host program may have handlers that write reports.
@@ -90,7 +90,7 @@ void SendAll(int pipe, std::string_view bytes) {
   }
 }
 
-/// Of the new process: does the work and ends.
+/// Runs in the new process: does the work and ends.
 [[noreturn]] void WorkAndEnd(int pipe, const std::function<std::string()>& work) {
   const auto send = [&](char mark, std::string_view bytes) {
     SendAll(pipe, {&mark, 1});

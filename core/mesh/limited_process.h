@@ -9,7 +9,7 @@ namespace railcast {
 /// What a process may take.
 struct ProcessLimits {
   std::uint64_t memory_bytes{};  ///< Beyond what it begins with.
-  std::uint64_t time_s{};        ///< Of computing.
+  std::uint64_t time_s{};        ///< Time of computing.
 };
 
 /// How a process ended, and with what.

@@ -23,7 +23,7 @@ enum class MeshFormat { kObj, kPly, kAsciiStl, kBinaryStl, kOff, kGltf, kGlb, kF
 /// A binary STL file that has another length than its header says.
 struct UnevenStl {
   std::size_t num_triangles{};  ///< By its header.
-  std::size_t num_bytes{};      ///< That they take with the header.
+  std::size_t num_bytes{};      ///< Bytes that they take with the header.
 };
 
 /// What a file of no known format is if its name ends in .stl, or if it ends too soon and the

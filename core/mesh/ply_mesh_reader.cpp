@@ -201,7 +201,7 @@ ImportedMesh ReadShippedPly(std::string_view bytes) {
   std::vector<Eigen::Vector3f> vertices(num_vertices);
   std::memcpy(static_cast<void*>(vertices.data()), rest.data(), num_vertices * kVertexBytes);
   const char* face = rest.data() + num_vertices * kVertexBytes;
-  std::vector<std::uint32_t> ends(mesh.parts.size(), 0);  // Of the parts' vertices.
+  std::vector<std::uint32_t> ends(mesh.parts.size(), 0);  // Ends of the parts' vertices.
   mesh.num_faces = num_faces;
   for (std::uint32_t i = 0; i < num_faces; ++i, face += kFaceBytes) {
     std::array<std::uint16_t, 3> corners{};

@@ -72,7 +72,7 @@ void NameMaterialsByColor(const std::vector<Rgb8>& of_points, PolygonSoup& soup)
 struct NamedMesh {
   std::string material;               ///< Empty = none.
   std::string group;                  ///< Empty = none.
-  std::optional<double> luminance{};  ///< Of the material's base colour; 1 = white.
+  std::optional<double> luminance{};  ///< Luminance of the material's base colour; 1 = white.
   Mesh mesh;                          ///< m, z up, relative to ImportedMesh::origin_m.
 };
 
@@ -83,9 +83,9 @@ struct ImportedMesh {
   std::size_t num_faces{};  ///< Faces in the file with three different corners or more.
   std::size_t num_cornerless{};  ///< Faces left out because they have fewer.
   std::size_t num_flat{};        ///< Triangles left out because they have no area in float32.
-  double area_m2{};              ///< Of all triangles.
+  double area_m2{};              ///< Area of all triangles.
   bool has_own_up{};             ///< Whether the file's format says which axis is up.
-  std::vector<Remark> remarks;   ///< Of its reader; their place is the file.
+  std::vector<Remark> remarks;   ///< Remarks of its reader; their place is the file.
 
   [[nodiscard]] std::size_t num_triangles() const;
 };

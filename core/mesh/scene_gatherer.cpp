@@ -146,9 +146,9 @@ class SceneGatherer {
     return it->second;
   }
 
-  /// Of the base colour that a glTF material has: white, if the file gives none. Nothing is known
-  /// where a picture or colours of vertices change it, or there is no material: assimp's own is
-  /// white and has no name.
+  /// The luminance of the base colour that a glTF material has: white, if the file gives none.
+  /// Nothing is known where a picture or colours of vertices change it, or there is no material:
+  /// assimp's own is white and has no name.
   [[nodiscard]] std::optional<double> LuminanceOfMaterial(const aiMesh& mesh) const {
     if (mesh.mMaterialIndex >= scene_.mNumMaterials || mesh.HasVertexColors(0)) return std::nullopt;
     const aiMaterial& material = *scene_.mMaterials[mesh.mMaterialIndex];
@@ -190,7 +190,7 @@ class SceneGatherer {
   std::vector<PlacedNode> nodes_;
   std::unordered_map<std::string, const PlacedNode*> node_of_name_;
   PolygonSoup soup_;
-  std::vector<Rgb8> colors_;  ///< Of the points.
+  std::vector<Rgb8> colors_;  ///< Colours of the points.
   bool has_colors_ = false;   ///< Whether the file gives any of them.
   std::map<std::pair<std::string, std::optional<double>>, std::uint32_t> materials_;
   NameIndices groups_;

@@ -58,7 +58,7 @@ struct ConnectedPiece {
   std::size_t part{};
   Mesh mesh;                  ///< Each place is one vertex.
   std::vector<bool> is_held;  ///< By vertex.
-  double deviation_m = 0.0;   ///< Of the simplified mesh from the piece.
+  double deviation_m = 0.0;   ///< Deviation of the simplified mesh from the piece.
   bool is_changed = false;
 };
 

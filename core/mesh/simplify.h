@@ -9,7 +9,7 @@ namespace railcast {
 
 /// How far a simplified mesh may be from what it was made of.
 struct SimplifyLimits {
-  double deviation_m{};  ///< Of the surfaces, in both directions.
+  double deviation_m{};  ///< Deviation of the surfaces, in both directions.
   double normal_deg{};   ///< Between the normal of a triangle and those of the ones it stands for.
 };
 

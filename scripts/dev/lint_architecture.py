@@ -127,11 +127,6 @@ FRAGMENT = r"(?:Of|That|Those|As above|Likewise)\b"
 STRING = re.compile(r'"(?:[^"\\\n]|\\.)*"')
 FRAGMENT_COMMENT = re.compile(rf"//(?:/<?)? ({FRAGMENT}.*)")
 FRAGMENT_TEXT = re.compile(rf'[(,]\s*"({FRAGMENT}[^"\n]*)"')
-# Where they still stand: others are at work there. The list only gets shorter.
-FOLDERS_WITH_FRAGMENTS = (
-    "core/io/recording", "core/io/cloud", "core/extras/ros", "core/extras/packets", "core/rail/structures", "core/mesh",
-    "analysis/extras/rare", "analysis/inspect", "analysis/frontier", "generator/extras/import/map",
-    "generator/extras/insert/packets")
 
 
 class Source:
@@ -276,7 +271,7 @@ def first_comments(text):
 def lint_fragments(sources):
     """Yields the comments and descriptions that begin with a word that leans on one before them."""
     for source in sources.values():
-        if is_within(source.name, "tests") or any(is_within(source.name, each) for each in FOLDERS_WITH_FRAGMENTS):
+        if is_within(source.name, "tests"):
             continue
         found = [(line, match[1]) for line, comment in first_comments(source.text)
                  if (match := FRAGMENT_COMMENT.match(comment))]

@@ -11,13 +11,13 @@ namespace railcast {
 /// score: the standard normal quantile of its distribution function. Factors are independent of
 /// each other.
 struct RareFactor {
-  /// That the choice of a value is said to depend on.
+  /// The value that the choice of another one is said to depend on.
   struct Condition {
     std::size_t factor{};
     std::size_t value{};
   };
 
-  /// Of each value of a choice, with the sum 1; empty for a number.
+  /// For each value of a choice, with the sum 1; empty for a number.
   std::vector<double> probabilities{};
   /// The value of an earlier choice without which this factor changes nothing; absent = it always
   /// may.

@@ -214,7 +214,7 @@ Estimate ByProposal(const WeightedTrials& trials) {
   return IntervalOf(level.mean, level.variance / num, terms, level.num);
 }
 
-// Of the trials on a level, which are not known.
+// The share of trials on a level that are not known.
 double UnknownShare(std::span<const WeightedTrials> by_law, double RareScores::*level) {
   double sum = 0.0;
   std::size_t num = 0;
@@ -276,7 +276,7 @@ std::string FaultOfSearch(const RareFigure& figure) {
   return "";
 }
 
-// Of the trials on the level that decides, which are not known.
+// The share of trials on the level that decides that are not known.
 double UnknownShare(const RareEvidence& evidence) {
   return HasPairs(evidence) ? UnknownShare(evidence.pairs, &RareScores::dear)
                             : UnknownShare(evidence.cheap, &RareScores::cheap);

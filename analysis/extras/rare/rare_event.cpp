@@ -11,7 +11,8 @@ namespace railcast {
 namespace {
 
 constexpr double kEliteShare = 0.1;
-/// Of failures among trials by p, from which on no other law saves as much as its search costs.
+/// The share of failures among trials by p from which on no other law saves as much as its search
+/// costs.
 constexpr double kFrequentShare = 0.05;
 
 /// Where trials that were drawn by one proposal lie among all.
@@ -92,12 +93,12 @@ class RareRunner {
     std::uint32_t num_own{};
   };
 
-  // Of a fit that follows the trials that there are.
+  // The seed of a fit that follows the trials made so far.
   [[nodiscard]] std::uint64_t FitSeed() const { return settings_.seed + run_.trials.size(); }
 
-  // Moves a proposal, which is p yet, to the failures. Returns false if it was stopped.
+  // Moves a proposal, which starts as p, towards the failures. Returns false if it was stopped.
   // @param batch The first stage, if it was made.
-  // @param most_trials After which there is no further stage.
+  // @param most_trials After these, there is no further stage.
   bool Search(Proposal& proposal, Batch batch, std::uint32_t most_trials) {
     constexpr std::size_t kMostStages = 12;
     constexpr double kEnoughFailures = 30.0;  // To fit modes to.
@@ -142,7 +143,8 @@ class RareRunner {
     return *place;
   }
 
-  // Of a point that any of several proposals may have drawn, as often each.
+  // The weight of a point that any of several proposals may have drawn, each with equal
+  // probability.
   static double WeightOfAll(std::span<const Proposal> proposals, const RarePoint& point) {
     double sum = 0.0;
     for (const Proposal& proposal : proposals) sum += 1.0 / WeightOf(proposal, point);
@@ -197,7 +199,7 @@ class RareRunner {
            num_of(cheap_[1]) * densities.of_cheap[1];
   }
 
-  // Of all laws of a level.
+  // The number of trials by all laws of a level.
   [[nodiscard]] double NumOf(bool is_pair) const {
     std::size_t num =
         is_pair ? pairs_.indices.size() : cheap_[0].indices.size() + cheap_[1].indices.size();
@@ -270,7 +272,7 @@ class RareRunner {
     return figure.cheap.mean + figure.correction.mean + figure.beyond.mean();
   }
 
-  // Of the trials by proposals, with what those by p add to the mean.
+  // The level of the trials by proposals, with what those by p add to the mean.
   [[nodiscard]] RareLevel ByProposals(bool is_pair) const {
     const RareFigure& figure = run_.figure;
     RareLevel level = is_pair ? figure.correction : figure.cheap;
@@ -281,7 +283,7 @@ class RareRunner {
     return level;
   }
 
-  // Of one trial by p, at the points that the proposals hardly draw.
+  // The variance of one trial by p, at the points that the proposals hardly draw.
   [[nodiscard]] double VarianceBeyond() const {
     const RareBeyond& beyond = run_.figure.beyond;
     if (beyond.num == 0) return 0.0;
@@ -289,7 +291,7 @@ class RareRunner {
            static_cast<double>(beyond.num);
   }
 
-  // Of a trial on the dearest level.
+  // The cost of a trial on the dearest level.
   [[nodiscard]] double DearestCost() const {
     return settings_.has_pairs ? settings_.pair_cost : 1.0;
   }
@@ -312,7 +314,7 @@ class RareRunner {
 
   // How many trials by p there should be beside the proposals.
   [[nodiscard]] double WantedOwn() const {
-    // That of which none fails say that at most 3.7 / n do.
+    // If none of n trials fails, at most 3.7 / n of all do, with 97.5 %.
     constexpr double kNoneOfMany = 3.689;
     if (!HasModes()) return 0.0;
     const auto for_error = [&] { return std::sqrt(VarianceBeyond() / DearestCost()) * Effort(); };
@@ -451,7 +453,7 @@ class RareRunner {
   std::array<Batch, 2> cheap_;
   Batch pairs_;
   Batch own_;
-  std::vector<Densities> densities_;  ///< Of all trials.
+  std::vector<Densities> densities_;  ///< For all trials.
   RareRun run_;
 };
 

@@ -16,21 +16,21 @@ namespace railcast {
 /// What became of a trial: negative if it failed, the more so the worse; NaN if that is not known.
 struct RareScores {
   double cheap = std::numeric_limits<double>::quiet_NaN();
-  double dear = std::numeric_limits<double>::quiet_NaN();  ///< Of pairs only.
+  double dear = std::numeric_limits<double>::quiet_NaN();  ///< For pairs only.
 };
 
 /// Trials that were drawn by one law.
 struct WeightedTrials {
   std::vector<double> weights{};  ///< p / q, where q is the mean of all laws of the level.
   std::vector<RareScores> scores{};
-  std::vector<double> own_weights{};  ///< Of cheap trials, p / q by the proposal that drew them.
+  std::vector<double> own_weights{};  ///< For cheap trials: p / q by the proposal that drew them.
 };
 
 /// The mean over independent trials.
 struct RareLevel {
   std::uint64_t num{};
   double mean{};
-  double variance{};  ///< Of one trial.
+  double variance{};  ///< Variance of one trial.
 };
 
 /// Trials that p has drawn, on the dearest level, with the weights that their points have on both.
@@ -52,9 +52,9 @@ struct RareEvidence {
 
 /// What trials by p say of the points that no proposal draws as often.
 struct RareBeyond {
-  std::uint64_t num{};        ///< Of all trials by p.
-  std::uint64_t num_more{};   ///< That add to the probability: failures, on the level that decides.
-  std::uint64_t num_fewer{};  ///< Of which the dear level says that they are none.
+  std::uint64_t num{};        ///< All trials by p.
+  std::uint64_t num_more{};   ///< Failures that add to the probability, on the level that decides.
+  std::uint64_t num_fewer{};  ///< Failures that the dear level says are none.
   /// (more - fewer) / num, with the exact intervals of both. What was not met at all is within it.
   Estimate share{};
 
@@ -69,9 +69,9 @@ struct RareFigure {
   RareBeyond beyond{};     ///< The rest.
   /// Upper 95 % bound where nothing failed, by the trials that p had drawn; else NaN.
   double at_most = std::numeric_limits<double>::quiet_NaN();
-  // Of the part that was met.
-  double effective{};                     ///< Number of equal weights with as much error.
-  double largest_share{};                 ///< Of one trial in the sum of all weights that count.
+  // For the part that was met:
+  double effective{};      ///< Number of equal weights with as much error.
+  double largest_share{};  ///< Share of one trial in the sum of all weights that count.
   std::array<Estimate, 2> by_proposal{};  ///< On the cheap level, by each alone.
   RareLevel cheap{};
   RareLevel correction{};  ///< Dear minus cheap.
@@ -132,7 +132,7 @@ struct RareSettings {
   std::optional<double> unseen{};
   std::uint32_t most_trials = 20'000;  ///< After which no more are added.
   bool has_pairs{};                    ///< Whether there is a dear level.
-  double pair_cost = 3.0;              ///< Of a pair, in trials on the cheap level.
+  double pair_cost = 3.0;              ///< Cost of a pair, in trials on the cheap level.
 };
 
 /// What a run has found, and all of its trials.
@@ -140,8 +140,8 @@ struct RareRun {
   RareFigure figure;
   std::vector<RareTrial> trials{};
   std::vector<RareScores> scores{};
-  std::uint32_t num_searching{};  ///< Of the trials, the first ones, which looked for the failures.
-  std::uint32_t num_own{};        ///< Of the others, those by p for what the proposals miss.
+  std::uint32_t num_searching{};  ///< How many of the first trials looked for the failures.
+  std::uint32_t num_own{};        ///< Other trials, by p, for what the proposals miss.
 };
 
 /// Estimates a small probability of failure by importance sampling over the factors.

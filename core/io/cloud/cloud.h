@@ -79,7 +79,7 @@ struct Cloud {
   std::uint32_t point_step{};      ///< Bytes of a point.
   bool is_dense{};                 ///< Whether all coordinates are known to be finite.
   std::vector<std::uint8_t> data;  ///< Rows without gaps between them.
-  std::vector<Remark> remarks{};   ///< Of its reader.
+  std::vector<Remark> remarks{};   ///< Remarks of its reader.
 
   [[nodiscard]] std::size_t num_points() const { return std::size_t{width} * height; }
   [[nodiscard]] std::string_view Row(std::size_t point) const {

@@ -78,7 +78,7 @@ TrainingClasses TrainingClassesOf(const LabelTable& kitti) {
   return training;
 }
 
-// Of a point in a .bin file, and of its label in a .label file.
+// Sizes of a point in a .bin file, and of its label in a .label file.
 constexpr std::size_t kPointBytes = 4 * sizeof(float);
 constexpr std::size_t kLabelBytes = sizeof(std::uint32_t);
 

@@ -139,7 +139,7 @@ bool IsConfiguration(const fs::path& file) {
 }  // namespace
 
 LabelTable ParseSemanticKittiNames(const std::string& yaml, const std::string& place) {
-  // Those in use have 5 kB. The library needs much more memory than the text.
+  // Files in use have 5 kB. The library needs much more memory than the text.
   constexpr std::size_t kMostBytes = 1'000'000;
   if (yaml.size() > kMostBytes) {
     throw InputError(place + ": must have at most " + NumberText(kMostBytes) + " bytes" +

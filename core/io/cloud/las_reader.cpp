@@ -140,7 +140,7 @@ LasHeader ReadLasHeader(const Bytes& file) {
 /// What a file says of its unit of length.
 struct StatedUnit {
   bool is_metre = false;
-  std::string codes{};  ///< Of coordinate systems whose units stand in EPSG's register alone.
+  std::string codes{};  ///< Codes of coordinate systems whose units stand in EPSG's register alone.
 };
 
 /// Throws if the keys say that coordinates are no metres.
@@ -155,7 +155,8 @@ StatedUnit CheckGeoKeys(const Bytes& keys) {
     if (keys.At<std::uint16_t>(8 * i + 2) != 0) continue;  // It stands elsewhere.
     if (key == 1024 && value == 2) RefuseUnit("degrees");
     if (key == 1024 && value == 3) RefuseUnit("places from the earth's centre");
-    const bool is_unit = key == 3076 || key == 4099;  // Of projected and of vertical coordinates.
+    // Keys of units of projected and of vertical coordinates.
+    const bool is_unit = key == 3076 || key == 4099;
     if (is_unit && value != 0 && value != 9001) RefuseUnit("unit EPSG:" + NumberText(value));
     values[key] = value;
   }

@@ -21,7 +21,7 @@ namespace railcast {
 ///   its coordinates are stated to be in degrees or feet.
 [[nodiscard]] Cloud ReadLas(const std::filesystem::path& file);
 
-/// As above, for a file held in `bytes`, which errors call `file`.
+/// The overload for a file held in `bytes`, which errors call `file`.
 [[nodiscard]] Cloud ParseLas(const std::string& file, std::string_view bytes);
 
 /// The classes that ASPRS defines (LAS 1.4 R15, tables 9 and 17).

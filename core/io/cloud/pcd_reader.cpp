@@ -193,7 +193,7 @@ void ReadBinary(const HeaderReader& reader, CloudFile& read) {
 
 void ReadCompressed(const HeaderReader& reader, CloudFile& read) {
   if (read.cloud.num_points() == 0) return;
-  std::array<std::uint32_t, 2> sizes{};  // Of the compressed and of the plain data.
+  std::array<std::uint32_t, 2> sizes{};  // Sizes of the compressed and of the plain data.
   if (read.points.size() < sizeof sizes) reader.Fail("DATA: the compressed sizes are missing");
   std::memcpy(sizes.data(), read.points.data(), sizeof sizes);
   const auto [packed, plain] = sizes;

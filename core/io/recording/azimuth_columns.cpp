@@ -12,7 +12,7 @@ namespace {
 
 /// Points closer than this are returns of the same firing.
 constexpr double kMinStep_turns = 1e-5;
-/// As above, as a share of the step, once the step is known.
+/// The same limit as a share of the step, once the step is known.
 constexpr double kSameFiringShare = 0.02;
 /// Steps that differ by no more than this share are alike.
 constexpr double kAlike = 0.1;

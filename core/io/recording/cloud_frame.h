@@ -33,7 +33,7 @@ namespace railcast {
 struct TimeColumn {
   const CloudField* column{};
   double first_ns{};     ///< The earliest time of a point.
-  double ns_per_unit{};  ///< Of the stored numbers.
+  double ns_per_unit{};  ///< Unit of the stored numbers.
 
   /// What is stored for a time since the earliest.
   [[nodiscard]] double Stored(std::uint32_t since_first_ns) const {

@@ -65,7 +65,7 @@ class CloudRecording : public Recording {
   }
 
  private:
-  /// Of folders that have labels for some of their frames only.
+  /// Remarks on folders that have labels for some of their frames only.
   void RemarkMissingLabels() {
     std::map<std::filesystem::path, std::vector<std::filesystem::path>> without;
     std::map<std::filesystem::path, bool> has_any;

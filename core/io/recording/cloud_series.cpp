@@ -107,7 +107,7 @@ std::vector<std::string_view> OriginalsOf(std::string_view stem) {
 struct NameSeries {
   std::string label;               ///< "front_#".
   std::vector<std::size_t> files;  ///< In order.
-  /// Of each file the values that run.
+  /// The values that run, for each file.
   std::vector<std::vector<NameValue>> values;
   bool is_bare{};  ///< Whether the stems are numbers and nothing else.
   bool is_part{};  ///< Whether others have the same text, and other numbers in one place.

@@ -121,7 +121,7 @@ NameValue TakeNumberOfName(std::string_view& text) {
   return number;
 }
 
-/// Of a number without its sign, as compared.
+/// What the size of a number without its sign is compared by.
 auto SizeOfNumber(const NameValue& number) {
   const std::string_view fraction = number.fraction;
   return std::tuple(number.whole.size(), std::string_view(number.whole),

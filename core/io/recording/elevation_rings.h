@@ -28,7 +28,7 @@ struct LevelPoint {
 
 /// Rings of points and the origin of the beams from which they are level.
 struct FoundRings {
-  std::vector<std::uint32_t> rings;  ///< Of each point, 0 the lowest.
+  std::vector<std::uint32_t> rings;  ///< Ring of each point, 0 the lowest.
   std::array<double, 2> origin_m{};  ///< Outwards and up.
 };
 

@@ -128,7 +128,7 @@ std::vector<double> AsideOfRows(const Frame& frame,
 /// How the times of a turn's points follow its azimuths.
 struct TurnTimes {
   double left_rad_per_us{};     ///< Speed of the rotor; 0 = unknown.
-  std::vector<double> late_us;  ///< Of each row, from when its column fires.
+  std::vector<double> late_us;  ///< For each row, from when its column fires.
 };
 
 TurnTimes TimesOfTurn(const RecordedFrame& recorded,
@@ -208,7 +208,7 @@ void MeasureErrors(const Frame& frame,
     const bool is_first =
         i == 0 || points[i - 1].row != point.row || points[i - 1].column != point.column;
     if (is_first) first_off_rad = off_rad;
-    constexpr double kSameBeam = 0.1;  // Of a step.
+    constexpr double kSameBeam = 0.1;  // As a share of a step.
     if (std::abs(off_rad - first_off_rad) > kSameBeam * table.column_step_rad) ++found.num_lost;
   }
   found.num_points = points.size();
@@ -351,7 +351,8 @@ FoundSensor FindSensor(const RecordedFrame& recorded) {
       static_cast<double>(found.pattern.channels.size()) *
       (table->is_full_turn ? found.pattern.columns : FiringsOfFullestRow(points, *table, step_rad));
   found.share_without_return = 1.0 - static_cast<double>(num_firings_hit) / num_firings;
-  constexpr double kMostOff = 0.25;  // Of a step; points at random azimuths are off by 0.29.
+  // As a share of a step; points at random azimuths are off by 0.29.
+  constexpr double kMostOff = 0.25;
   if (!(found.azimuth_error_deg <= kMostOff * found.step_deg)) {
     throw InputError("its points are off the beams of a spinning sensor by " +
                      ShortText(found.azimuth_error_deg) + " deg in azimuth, of steps of " +

@@ -21,10 +21,10 @@ struct FoundSensor {
   double rate_hz = 10.0;
   bool has_times{};               ///< Whether rate, sense and times come from times of points.
   double step_deg{};              ///< From column to column.
-  double elevation_error_deg{};   ///< Of the points, from their channel: root mean square.
-  double azimuth_error_deg{};     ///< Of the points, from their column and channel.
-  double share_without_return{};  ///< Of the firings of these channels.
-  ScanTable beams;                ///< Those of the turn, from where they leave.
+  double elevation_error_deg{};   ///< Error of the points from their channel: root mean square.
+  double azimuth_error_deg{};     ///< Error of the points from their column and channel.
+  double share_without_return{};  ///< Share of the firings of these channels.
+  ScanTable beams;                ///< Beams of the turn, from where they leave.
   std::size_t num_points{};
   std::size_t num_lost{};  ///< Points that share the firing of another one without its direction.
 
@@ -51,7 +51,7 @@ class SensorSearch {
   void Add(SensorSearch other);
 
   std::optional<FoundSensor> found;
-  std::string why_not = "it has no frame";  ///< Of the last frame that shows none.
+  std::string why_not = "it has no frame";  ///< Why the last frame that shows none does not.
 
  private:
   int num_frames_{};

@@ -14,7 +14,7 @@ namespace railcast {
 struct ImageList {
   /// The images of one frame.
   struct FrameImages {
-    std::size_t place{};  ///< Of the frame, counted from 0 in the directory.
+    std::size_t place{};  ///< Place of the frame, counted from 0 in the directory.
     std::uint32_t frame{};
     std::vector<KnownFile> files;
 
@@ -23,7 +23,7 @@ struct ImageList {
     [[nodiscard]] const KnownFile* Find(std::string_view folder) const;
   };
   std::filesystem::path directory;
-  std::vector<FrameImages> frames;  ///< Those that have images, in order.
+  std::vector<FrameImages> frames;  ///< Frames that have images, in order.
 
   /// Returns the latest images that were there when a frame was taken: its own, or those before it
   /// where the camera has a lower rate; null if there are none.

@@ -96,7 +96,7 @@ bool IsAzimuth(const std::vector<double>& values, double turn) {
 /// @param values In order.
 bool IsElevation(const std::vector<double>& values, std::size_t num_points, double turn) {
   constexpr std::size_t kMostRings = 256;
-  constexpr std::size_t kLeastPoints = 4;  // Of a ring, on average.
+  constexpr std::size_t kLeastPoints = 4;  // In a ring, on average.
   return std::max(-values.front(), values.back()) <= 0.25 * turn && values.size() > 1 &&
          values.size() <= kMostRings && num_points >= kLeastPoints * values.size();
 }
@@ -378,7 +378,7 @@ std::optional<Remark> CheckRanges(const RecordedFrame& recorded,
 
 void CheckUnit(RecordedFrame& recorded) {
   constexpr double kMostLikely_m = 300.0;
-  constexpr double kLeastRange_m = 50.0;  // Of all sensors that are known.
+  constexpr double kLeastRange_m = 50.0;  // Least range of all known sensors.
   constexpr std::size_t kSurePoints = 100;
   if (!recorded.why_no_ranges.empty()) return;
   std::vector<double> ranges_m;

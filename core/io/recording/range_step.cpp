@@ -19,7 +19,7 @@ double StepOfValues(const std::vector<double>& values, double most) {
 
 double RangeStep_m(const RecordedFrame& recorded) {
   constexpr double kMost_m = 0.3;
-  // Of first returns; enough for 1,000 differences on surfaces.
+  // First returns that are used: enough for 1,000 differences on surfaces.
   constexpr std::size_t kMostPoints = 4000;
   constexpr std::size_t kAtOnce = 20;
   const Frame& frame = recorded.frame;

@@ -10,7 +10,7 @@ namespace railcast {
 /// none, or none that shows (FindStep() in core/base/rounded_scale.h).
 [[nodiscard]] double RangeStep_m(const RecordedFrame& recorded);
 
-/// Likewise for any values in the order of firings.
+/// As RangeStep_m() for any values in the order of firings.
 /// @param most Differences beyond it are not of one surface. NaN is left out.
 [[nodiscard]] double StepOfValues(const std::vector<double>& values, double most);
 

@@ -56,8 +56,8 @@ class RecordedMotion {
   bool is_sensor_undone_;
   bool are_objects_undone_;
   ScanMotion motion_;
-  /// Of the objects that move, by instance, in the sensor's axes at the stamp. Empty if their
-  /// motion is not undone.
+  /// Velocities of the objects that move, by instance, in the sensor's axes at the stamp. Empty if
+  /// their motion is not undone.
   std::unordered_map<std::uint32_t, Vector3> velocities_mps_;
 };
 

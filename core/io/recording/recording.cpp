@@ -145,7 +145,7 @@ class RemarkingRecording : public Recording {
                    .detail = recorded.why_no_ranges},
                   recorded.remarks);
       }
-      // Those of the recording as a whole come first.
+      // Remarks on the recording as a whole come first.
       for (const Remark& remark : recorded.remarks) remarks->Add(remark, recorded.frame.index + 1U);
       recorded.remarks.clear();
       return recorded;

@@ -32,7 +32,7 @@ struct RecordingKind {
 
   std::string (*help)();                ///< Names it in help: ".pcap capture of VLP-16 or QT64".
   std::string_view option;              ///< Picks one of what it holds: "--sensor".
-  std::vector<std::string> extensions;  ///< Of its files, as messages name them.
+  std::vector<std::string> extensions;  ///< Extensions of its files, as messages name them.
   /// Whether a source is of the kind, by its name or by what it holds.
   bool (*is_of)(const std::filesystem::path& source);
   Open open;                 ///< A file or a directory.
@@ -59,7 +59,7 @@ struct CloudInBag {
 struct CloudsOfFrame {
   std::int64_t stamp_ns{};
   std::string hash;   ///< ContentHash() of its messages, one after another.
-  std::string place;  ///< Of the line: "out/frames.jsonl:3".
+  std::string place;  ///< Place of the line: "out/frames.jsonl:3".
 };
 
 /// Returns what one line after another says; nothing at the end.
@@ -70,7 +70,7 @@ struct SensorPackets {
   std::filesystem::path capture;
   std::string name;
   std::string address;
-  std::string ports;  ///< That they went to.
+  std::string ports;  ///< The ports that they went to.
   std::uint64_t taken{}, lost{}, doubled{}, reordered{}, late{}, damaged{}, refused{};
 };
 

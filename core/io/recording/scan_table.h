@@ -26,7 +26,7 @@ namespace railcast {
 struct ScanTable {
   std::uint32_t rows{};
   std::uint32_t columns{};
-  std::vector<double> elevation_rad;       ///< Of each row, positive upward; NaN = unknown.
+  std::vector<double> elevation_rad;       ///< For each row, positive upward; NaN = unknown.
   std::vector<double> row_azimuth_rad;     ///< Offset of each row, added to the column's azimuth.
   std::vector<double> column_azimuth_rad;  ///< Positive to the left, unwrapped; NaN = unknown.
   double column_step_rad{};                ///< Median distance between neighbouring columns, > 0.
@@ -55,7 +55,7 @@ struct ScanTable {
 
 /// A point as its beam sees it, from where it leaves.
 struct AimedPoint {
-  double azimuth_rad{};  ///< Of the beam.
+  double azimuth_rad{};  ///< Azimuth of the beam.
   double elevation_rad{};
 };
 

@@ -45,7 +45,8 @@ void UseFrameId(const std::string& frame_id, std::vector<std::filesystem::path>&
   std::size_t num_bags = 0;
   for (std::filesystem::path& source : sources) {
     if (!IsOfBag(source)) continue;
-    if (IsBagOfTopics(source)) source += kTopicMark;  // Of its only topic.
+    // The name without a mark is that of its only topic.
+    if (IsBagOfTopics(source)) source += kTopicMark;
     source += kSeriesMark + frame_id;
     ++num_bags;
   }

@@ -12,10 +12,10 @@ namespace railcast {
 
 /// What users say of recordings that do not say it themselves; empty: nothing.
 struct SourceChoice {
-  std::string topic{};          ///< Of bags.
-  std::string frame_id{};       ///< Of a topic of bags.
-  std::string kitti_columns{};  ///< Of .bin files, as IsKittiColumns().
-  std::string sensor{};         ///< Of captures, as ParseSender().
+  std::string topic{};          ///< For bags.
+  std::string frame_id{};       ///< For a topic of bags.
+  std::string kitti_columns{};  ///< For .bin files, as IsKittiColumns().
+  std::string sensor{};         ///< For captures, as ParseSender().
 };
 
 /// Returns the sources with what was chosen behind those that it is for: "run.mcap:/points",

@@ -50,7 +50,7 @@ struct SortedSquares {
   }
 
   std::vector<std::pair<double, std::size_t>> squares;
-  std::vector<std::uint64_t> sizes;  ///< Of the sectors.
+  std::vector<std::uint64_t> sizes;  ///< Sizes of the sectors.
 };
 
 /// The deviation of one of two returns by their differences, less that of others.
@@ -72,7 +72,7 @@ TurnNoise::Deviations DeviationOf(const BySector& differences, const BySector& l
 /// The deviation of one of two returns where readings come in steps that are no smaller than it.
 /// @param steps By sector and sample.
 JackknifedFigure RoundedDeviationOf(const BySector& differences, const BySector& steps) {
-  constexpr double kWidth = 0.1;  // Of the logarithm of steps that are taken together.
+  constexpr double kWidth = 0.1;  // In the logarithm of steps that are taken together.
   using Groups = std::map<std::int64_t, RoundedSamples>;
   std::array<Groups, kNumSectors> sectors;
   Groups all;
@@ -127,7 +127,7 @@ void SeeThroughSteps(const BySector& differences,
     if (steps.at(sector).size() != differences.at(sector).size()) return;
     all.insert(all.end(), steps.at(sector).begin(), steps.at(sector).end());
   }
-  constexpr double kFine = 0.3;  // Of the deviation.
+  constexpr double kFine = 0.3;  // As a share of the deviation.
   if (!(MedianOf(all) >= kFine * deviations.robust.value)) return;
   deviations.robust = RoundedDeviationOf(differences, steps);
 }

@@ -90,8 +90,8 @@ struct TurnNoise {
   /// Whether ranges say that the sensor moved: turns then do not tell noise, and the texture has it
   /// included.
   bool has_moved{};
-  /// Of a return, from a firing and what the turn before shows there, between two columns; that of
-  /// log intensity for means of 0.12 to 0.25. Texture finer than the columns adds to it.
+  /// How a return deviates from what the turn before shows there, between two columns; log
+  /// intensity only for means of 0.12 to 0.25. Texture finer than the columns adds to it.
   Deviations intensity, range_m;
   /// Semideviation of log intensity at kTextureLags_m, less that from turn to turn.
   std::array<Deviations, kTextureLags_m.size()> texture;

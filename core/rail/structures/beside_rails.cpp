@@ -35,11 +35,11 @@ constexpr double kBottomContactDistance_m = 1.57;
 constexpr double kBottomContactHeight_m = 0.16;
 constexpr double kInsulatorSpacing_m = 3.0;
 constexpr double kInsulatorWidth_m = 0.1;
-/// Of insulators, below top of rail: on the sleepers' ends.
+/// Foot of insulators, below top of rail: on the sleepers' ends.
 constexpr double kInsulatorFoot_m = 0.22;
 constexpr double kShieldThickness_m = 0.02;
 constexpr double kShieldGap_m = 0.06;  ///< Between shield and conductor rail.
-constexpr double kBoardRise_m = 0.06;  ///< Of boards above a rail with top contact.
+constexpr double kBoardRise_m = 0.06;  ///< Height of boards above a rail with top contact.
 
 /// The conductor rail with its foot at z = 0, y across.
 Outline ConductorOutline() {

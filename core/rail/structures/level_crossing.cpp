@@ -29,7 +29,7 @@ constexpr double kRoadColumn_m = 2.0;
 /// How deep the shoulder's foot lies in the ground.
 constexpr double kShoulderFoot_m = 0.15;
 
-/// Of barriers and signs, from the axis of the outermost track and from the road's edge.
+/// Distances of barriers and signs from the axis of the outermost track and from the road's edge.
 constexpr double kBarrierDistance_m = 4.0;
 constexpr double kSignDistance_m = 4.6;
 constexpr double kBarrierBeside_m = 0.5;

@@ -81,7 +81,7 @@ Model ModelOf(const BoardSpec& board, const LinesideSurfaces& surfaces) {
 }
 
 Model ModelOf(const FurnitureSpec& furniture, const LinesideSurfaces& surfaces) {
-  // Of a lamp or a shelter: benches leave nothing open.
+  // The height of a lamp or a shelter; benches leave nothing open.
   const double height_m = furniture.kind == FurnitureKind::kLamp ? 6.0 : 2.5;
   return MakeLinesideModel(NameOf(furniture.kind), surfaces,
                            {.length_m = 4.0, .depth_m = 1.5, .height_m = height_m});

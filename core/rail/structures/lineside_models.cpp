@@ -21,7 +21,7 @@ using S = LinesideSurfaces;
 struct LinesideCoordinate {
   constexpr LinesideCoordinate(double value_m) : factors{value_m} {}
   constexpr LinesideCoordinate(std::size_t of, double factor) : factors{} { factors[of] = factor; }
-  std::array<double, 5> factors;  ///< Of 1 m, half the length, half the depth, height, shift.
+  std::array<double, 5> factors;  ///< Times 1 m, half the length, half the depth, height, shift.
 };
 
 constexpr LinesideCoordinate operator+(LinesideCoordinate a, const LinesideCoordinate& b) {
@@ -48,9 +48,9 @@ constexpr LinesideCoordinate kLower = kZ - 1.4 * 2.5 / 3.0;
 /// A box between two corners or, if it has sides, a tube along an axis.
 struct LinesideShape {
   SurfaceClass S::*surface;
-  std::array<LinesideCoordinate, 3> begin;  ///< Of a box, the corner of least coordinates.
+  std::array<LinesideCoordinate, 3> begin;  ///< The corner of least coordinates if it is a box.
   std::array<LinesideCoordinate, 3> end;
-  double radius_m = 0.0;  ///< Of the corners of the tube's section.
+  double radius_m = 0.0;  ///< From the axis to the corners of the section.
   int num_sides = 0;
   double taper_m = 0.0;   ///< By how much the tube is thinner at its end.
   double roll_rad = 0.0;  ///< By how much the box is turned about its middle's x axis.

@@ -14,7 +14,7 @@ namespace railcast {
 struct LinesideSizes {
   double length_m{};  ///< Along x.
   double depth_m{};   ///< Along y.
-  double height_m{};  ///< Of its top, above its origin.
+  double height_m{};  ///< From its origin to its top.
   double shift_m{};   ///< How much farther from the middle the rails lie than on standard gauge.
 };
 

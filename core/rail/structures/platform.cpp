@@ -27,7 +27,7 @@ constexpr double kStripHeight_m = 0.004;
 constexpr double kStripBevel_m = 0.01;
 
 constexpr double kRoofDepth_m = 0.25;
-constexpr double kRoofRise_m = 0.3;  ///< Of the roof's edges above its valley.
+constexpr double kRoofRise_m = 0.3;  ///< Height of the roof's edges above its valley.
 /// Distance of the roof's edge from the platform's edge, and from the platform's back.
 constexpr double kRoofFromEdge_m = 0.5;
 constexpr double kRoofFromBack_m = 0.1;

@@ -42,8 +42,8 @@ class StructureTrack {
   [[nodiscard]] std::vector<double> Stations(const ChainageRange& range,
                                              double d_m,
                                              double max_step_m = 2.5) const;
-  /// Those of the evenly spaced places of repeated parts, from the stretch's begin to its end and
-  /// at most `spacing_m` apart, that belong to the chunk.
+  /// Where repeated parts stand that belong to the chunk, evenly spaced from the stretch's begin to
+  /// its end and at most `spacing_m` apart.
   [[nodiscard]] std::vector<double> Places(const ChainageRange& stretch, double spacing_m) const;
   /// Whether `s_m` belongs to the chunk: the end of the line to the last.
   [[nodiscard]] bool Holds(double s_m) const;

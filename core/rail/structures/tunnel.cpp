@@ -13,12 +13,13 @@
 namespace railcast {
 namespace {
 
-constexpr double kVaultTolerance_m = 2e-3;  ///< Of the lining's faces in its cross-section.
+/// Tolerance of the lining's faces in its cross-section.
+constexpr double kVaultTolerance_m = 2e-3;
 
 constexpr double kTunnelFloor_m = -0.72;
 /// Beside the outermost axis: behind the ballast's shoulder at 1.75 m.
 constexpr double kWalkwayBegin_m = 2.0;
-constexpr double kHandrailHeight_m = 1.0;  ///< Of the handrail above the walkway.
+constexpr double kHandrailHeight_m = 1.0;  ///< Height of the handrail above the walkway.
 constexpr double kRailRadius_m = 0.02;
 constexpr double kRailFromWall_m = 0.08;
 constexpr int kRailSides = 8;

@@ -59,7 +59,7 @@ void CompleteConfig(const OusterMetadata& metadata,
   AddMissing(config, "operating_mode", "NORMAL");
   AddMissing(config, "timestamp_mode", "TIME_FROM_INTERNAL_OSC");
   if (timestamp_mode) config["timestamp_mode"] = *timestamp_mode;
-  // Of firmware 1: the older name of udp_dest.
+  // Firmware 1 has the older name of udp_dest.
   if (config.contains("udp_ip")) config["udp_ip"] = config["udp_dest"];
 }
 

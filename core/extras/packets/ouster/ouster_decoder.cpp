@@ -116,7 +116,8 @@ std::optional<std::string> OusterDecoder::RefuseColumns(std::span<const char> pa
     // Where a few counts are a small part, but in the first packet of a turn.
     constexpr std::uint16_t kFirstClear = 8;
     if (layout_.is_legacy() && column.measurement_id >= kFirstClear) {
-      // Of another mode of the sensor, which has twice or half as many columns, or four times.
+      // Whether it is from another mode of the sensor, which has twice or half as many columns, or
+      // four times.
       const double ticks = layout_.EncoderTicksOf(payload, i);
       const double expected =
           double{kOusterTicks} * column.measurement_id / metadata_.columns_per_frame;

@@ -56,7 +56,7 @@ class OusterDecoder {
   struct Beam {
     std::uint16_t pixel{};
     std::uint16_t ring{};
-    double sine{};  ///< Of the altitude.
+    double sine{};  ///< Sine of the altitude.
     double cosine{};
     double azimuth_rad{};  ///< Clockwise.
   };
@@ -66,7 +66,7 @@ class OusterDecoder {
     std::int64_t time_ns{};
     std::size_t first_point{};
     std::size_t num_points{};
-    std::size_t first_place{};  ///< Likewise, among the places.
+    std::size_t first_place{};  ///< Its place among the places.
   };
 
   [[nodiscard]] std::optional<std::string> RefuseColumns(std::span<const char> payload) const;

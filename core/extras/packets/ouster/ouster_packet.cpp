@@ -59,7 +59,7 @@ struct ReturnWord {
 constexpr ReturnWord kLegacyWord = {4, 20, 28, 4};
 constexpr ReturnWord kFullRateWord = {3, 19, 19, 5};
 constexpr ReturnWord kLowRateWord = {2, 15, 15, 1, 8};
-// Of the byte that states the photons of the background.
+// Place of the byte that states the photons of the background.
 constexpr std::uint16_t kLowRateNearIr = 16;
 
 /// The bytes of a pixel at which its fields begin.

@@ -15,7 +15,7 @@ namespace railcast {
 // LEGACY packets have neither header nor footer, but a status behind each column.
 
 inline constexpr std::size_t kOusterImuPacketSize = 48;
-/// Of the encoder, to a turn of the rotor.
+/// Ticks of the encoder in a turn of the rotor.
 inline constexpr std::uint32_t kOusterTicks = 90'112;
 
 /// The header of a packet; LEGACY packets have but the frame's number.
@@ -99,7 +99,7 @@ class OusterLayout {
   [[nodiscard]] OusterPixel PixelAt(std::span<const char> packet, std::size_t place) const;
   void StorePixel(const OusterPixel& pixel, std::size_t place, std::span<char> packet) const;
   void Store(const OusterHeader& header, std::span<char> packet) const;
-  /// Of LEGACY packets: the rotor's angle at a column, kOusterTicks to a turn.
+  /// The rotor's angle at a column of a LEGACY packet, kOusterTicks to a turn.
   [[nodiscard]] std::uint32_t EncoderTicksOf(std::span<const char> packet,
                                              std::size_t column) const;
   /// @param encoder_ticks As above.

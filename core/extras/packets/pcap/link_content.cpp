@@ -23,7 +23,7 @@ LinkContent IpContent(std::span<const char> bytes) {
 LinkContent LoopbackContent(std::span<const char> frame) {
   constexpr std::size_t kFamilySize = 4;
   if (frame.size() <= kFamilySize) return {.is_cut = true};
-  // That of IPv4 is 2 everywhere, that of IPv6 one of those of Linux, BSD, FreeBSD and macOS.
+  // IPv4 has the number 2 everywhere, IPv6 one of those of Linux, BSD, FreeBSD and macOS.
   constexpr auto kFamilies = std::to_array<unsigned>({2, 10, 24, 28, 30});
   const unsigned family = OctetAt(frame, 0) | OctetAt(frame, 3);
   if (std::ranges::count(kFamilies, family) > 0) return IpContent(frame.subspan(kFamilySize));
@@ -67,7 +67,7 @@ LinkContent ContentOfLink(std::span<const char> frame, int link) {
   }
 }
 
-constexpr std::uint16_t kEthernetType = 0x6558;  // Of a frame within another packet.
+constexpr std::uint16_t kEthernetType = 0x6558;  // Type of a frame within another packet.
 
 LinkContent ContentOfType(std::uint16_t type, std::span<const char> bytes) {
   return type == kEthernetType ? EthernetContent(bytes) : LinkContent{type, bytes};

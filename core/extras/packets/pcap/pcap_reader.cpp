@@ -186,7 +186,7 @@ PcapReader::PcapReader(std::FILE* stream, std::string name) : name_(std::move(na
 }
 
 std::uint64_t PcapReader::PlaceOf(std::span<const char> packet, const std::string& place) const {
-  // Of classic captures a packet ends where libpcap stands, and so does its block in pcapng, whose
+  // In classic captures a packet ends where libpcap stands, and so does its block in pcapng, whose
   // last four bytes are its length, and from whose begin on the packet is 28 bytes away, or 12 in a
   // simple packet block (IETF, draft-tuexen-opsawg-pcapng, 4.3 and 4.4).
   constexpr std::array<std::uint64_t, 2> kBlockHeads = {28, 12};

@@ -43,7 +43,7 @@ inline constexpr std::size_t kUdpProtocolPlace = 9;  ///< In the IPv4 header.
 
 /// What a frame carries: a packet of IP if the type is that.
 struct LinkContent {
-  static constexpr std::uint16_t kIpv4Type = 0x0800;  ///< Of Ethernet.
+  static constexpr std::uint16_t kIpv4Type = 0x0800;  ///< Type in Ethernet.
   static constexpr std::uint16_t kIpv6Type = 0x86DD;
 
   std::uint16_t type{};  ///< As of Ethernet; of loopback devices the family, if it is not IP.
@@ -75,7 +75,7 @@ struct Ipv6Content {
 
 /// Where a piece of a datagram stands in the file that it was captured to.
 struct CapturedPiece {
-  std::uint64_t place{};  ///< Of its first byte.
+  std::uint64_t place{};  ///< Place of its first byte.
   std::size_t size{};
 };
 
@@ -90,7 +90,7 @@ struct IpFragment {
   bool is_last{};        ///< Whether the data end with it.
   std::span<const char> bytes;
   std::int64_t time_ns{};  ///< Time of capture.
-  std::uint64_t place{};   ///< Of its bytes in the file, if that is wanted.
+  std::uint64_t place{};   ///< Place of its bytes in the file, if that is wanted.
 };
 
 /// Puts together what was sent in fragments (RFC 791, 3.2; RFC 8200, 4.5), in whatever order these
@@ -128,7 +128,7 @@ class IpFragments {
     std::vector<char> bytes;
     std::map<std::size_t, Part> parts;  ///< By begin.
     std::optional<std::size_t> end;     ///< Known once the last fragment is there.
-    bool is_copy{};                     ///< Of one of the finished, as far as it is there.
+    bool is_copy{};  ///< Whether it repeats a finished one, as far as it is there.
   };
 
   Packet& PacketOf(const IpFragment& fragment);
@@ -222,7 +222,7 @@ class PcapReader {
   [[nodiscard]] std::uint64_t PlaceOf(std::span<const char> packet, const std::string& place) const;
 
   IpFragments fragments_;
-  std::vector<CapturedPiece> pieces_;  ///< Of the last datagram.
+  std::vector<CapturedPiece> pieces_;  ///< Pieces of the last datagram.
   bool finds_places_ = false;
   std::string name_;
   std::size_t num_frames_{};

@@ -40,7 +40,7 @@ class CaptureRecording : public Recording {
   }
 
   ~CaptureRecording() override {
-    // Of what was read, where that is not all.
+    // If not all was read, the remarks are about what was.
     if (!is_at_end_) AddRemarks();
   }
   CaptureRecording(const CaptureRecording&) = delete;

@@ -42,11 +42,11 @@ struct CaptureSuffix {
 
 [[nodiscard]] CaptureSuffix SplitCaptureSuffix(std::string_view suffix);
 
-/// As above, for a capture that `open` opens. `open` is called twice: once to find the sensor, and
-/// once to read.
+/// The overload for a capture that `open` opens. `open` is called twice: once to find the sensor,
+/// and once to read.
 /// @param name Names the capture in error messages.
 /// @param beside What stands beside it about its sensor; only an Ouster sensor and an AT128 need
-/// it.
+///   it.
 [[nodiscard]] std::unique_ptr<Recording> OpenCapture(const std::function<std::FILE*()>& open,
                                                      const std::string& name,
                                                      const CaptureMetadata& beside = {});

@@ -27,7 +27,7 @@ struct FoundStream {
   std::size_t num_shared{};  ///< Which its address had sent elsewhere shortly before.
   std::size_t first{};       ///< Index among the captured of the first packet.
   std::size_t last{};
-  std::size_t num_runs{};  ///< Of packets between which its address sent none elsewhere.
+  std::size_t num_runs{};  ///< Runs of packets between which its address sent none elsewhere.
 
   /// Whether what the address sends elsewhere comes before or after long runs.
   [[nodiscard]] bool HasLongRuns() const {

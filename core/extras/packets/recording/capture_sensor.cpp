@@ -141,7 +141,7 @@ std::vector<CaptureSensor> ReadableSensors(
   return sensors;
 }
 
-// Of Velodyne's packets.
+// What Velodyne's packets look like.
 constexpr std::size_t kVelodynePacketSize = 1206;
 constexpr std::size_t kVelodyneBlockSize = 100;
 constexpr std::uint16_t kLowerBlockFlag = 0xEEFF;  ///< Lasers 0 to 31.

@@ -74,7 +74,7 @@ struct CaptureSensor {
   std::size_t packet_size{};  ///< Payload size of its data packets.
   TurnShape shape;
   TurnDecoder decoder;
-  /// That its packets come in; empty: any.
+  /// The streams that its packets come in; empty: any.
   std::vector<SenderStream> streams{};
   /// Where it sends from, as `--sensor` takes it: "192.168.1.201", with a port where other sensors
   /// have that address, too.
@@ -106,7 +106,7 @@ class SensorFinder {
  private:
   std::optional<OusterMetadata> metadata_;
   LoadAt128Correction load_correction_;
-  /// Of a datagram that they refuse they use nothing, so that each can look at all of them.
+  /// They use nothing of a datagram that they refuse, so that each can look at all of them.
   std::vector<CaptureSensor> probes_;
   std::size_t num_datagrams_{};
   std::size_t first_size_{};

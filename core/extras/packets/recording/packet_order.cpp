@@ -36,7 +36,7 @@ bool GoesOn(const PacketMark& before, const PacketMark& mark) {
 constexpr std::int64_t kLessThanTurn_ns = kNsPerS / 40;
 
 constexpr std::int64_t kLeastWindow = 2000;  // In 0.01 deg.
-constexpr std::int64_t kBin = 10;            // Likewise.
+constexpr std::int64_t kBin = 10;            // In the same unit.
 
 void AddTally(PacketTally& sum, const PacketTally& tally) {
   if (tally.number == 0) return;

@@ -31,7 +31,7 @@ struct OrderedPacket {
 struct PacketTally {
   std::size_t number{};
   std::size_t first{};   ///< OrderedPacket::number of the first.
-  std::string detail{};  ///< Of that.
+  std::string detail{};  ///< Detail of the first.
 
   void Count(std::size_t packet, std::size_t num = 1, const std::string& why = "") {
     if (num > 0 && number == 0) {
@@ -80,7 +80,7 @@ class MissingPackets {
   };
   struct Window {
     Arc arc;
-    double packets{};        ///< That the sensor does not send there, in a turn.
+    double packets{};        ///< Packets that the sensor does not send there, in a turn.
     std::int64_t slack{};    ///< By which a gap's arc may be wider if nothing is missing.
     bool is_certain = true;  ///< Else it has to be seen once more.
   };
@@ -88,7 +88,7 @@ class MissingPackets {
     std::int64_t begin{};  ///< Azimuth of the first block of the packet before it.
     Arc arc;
     double turns{};    ///< From `begin` to the packet behind it.
-    double packets{};  ///< That are missing if there is no window.
+    double packets{};  ///< Packets that are missing if there is no window.
     std::size_t number{};
 
     [[nodiscard]] double NumPasses(const Arc& window) const;
@@ -107,7 +107,7 @@ class MissingPackets {
   [[nodiscard]] std::optional<Window> WindowAt(const Arc& arc) const;
 
   bool has_begun_{};
-  std::vector<Window> windows_;  ///< That are known.
+  std::vector<Window> windows_;  ///< The windows that are known.
   // How often how many packets are missing between two that follow each other.
   std::map<std::int64_t, std::size_t> num_missing_;
   double turned_{};     ///< How many turns the rotor has made of late,

@@ -20,8 +20,8 @@ namespace railcast {
 /// A datagram as a sensor sent it.
 struct RecordedDatagram {
   std::vector<char> bytes;
-  /// That it was sent to. Bags do not say; theirs go to where such sensors send unless told
-  /// otherwise.
+  /// The port that it was sent to. Bags do not say; theirs go to where such sensors send unless
+  /// told otherwise.
   std::uint16_t port{};
   std::int64_t time_ns{};  ///< When it was captured, since 1970-01-01 00:00:00 UTC.
 };
@@ -44,7 +44,7 @@ class PacketRecording {
 
   /// As messages name it.
   [[nodiscard]] std::string source() const { return ShownPath(place_.source); }
-  /// Of the first sensor: "VLP-16".
+  /// Name of the first sensor: "VLP-16".
   [[nodiscard]] const std::string& name() const { return turn_reader_.sensor().name; }
   /// The port that the first sensor's packets went to.
   [[nodiscard]] std::uint16_t port() const { return port_; }
@@ -69,7 +69,7 @@ class PacketRecording {
 
   DatagramPlace place_;
   std::vector<CaptureSensor> sensors_;
-  TurnReader turn_reader_;  ///< Of the first sensor, or the only one that is wanted.
+  TurnReader turn_reader_;  ///< Reads the first sensor, or the only one that is wanted.
   std::unique_ptr<DatagramSource> source_;
   SensorFinder finder_;
   struct Sender {
@@ -80,7 +80,7 @@ class PacketRecording {
   std::uint16_t port_{};
   std::deque<RecordedDatagram> datagrams_;
   std::uint64_t first_datagram_{};  ///< Number of their first.
-  std::deque<SensorTurn> turns_;    ///< Of which not all datagrams were returned.
+  std::deque<SensorTurn> turns_;    ///< Turns of which not all datagrams were returned.
   std::size_t num_left_out_{};
   bool is_at_end_ = false;
   std::exception_ptr fault_;  ///< Why there is no further datagram.

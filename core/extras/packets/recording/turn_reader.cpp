@@ -31,7 +31,7 @@ void TurnReader::CountOther(const CapturedDatagram& datagram) {
 }
 
 void TurnReader::CountUnknown(const CapturedDatagram& datagram) {
-  // Of time and position, Velodyne's and Hesai's, and of motion, Ouster's.
+  // Sizes of reports of time and position, Velodyne's and Hesai's, and of motion, Ouster's.
   constexpr auto kReports = std::to_array<std::size_t>({512, kOusterImuPacketSize});
   const std::size_t size = datagram.payload.size();
   if (std::ranges::count(kReports, size) > 0) return;

@@ -19,7 +19,7 @@ inline constexpr double kMaxTimeOffset_us = 0.01;
 
 /// What the packets of a spinning sensor take for granted.
 struct PacketScan {
-  std::string_view name;  ///< Of the sensor.
+  std::string_view name;  ///< Name of the sensor.
   const std::vector<ChannelSpec>& channels;
   double cycle_us{};
   bool has_own_angles{};             ///< Whether each unit has angles and times of its own.

@@ -37,8 +37,9 @@ struct PacketMark {
   std::int64_t number{};
   bool has_number = true;  ///< Else the packet follows the one that came before.
   bool is_counted{};
-  std::int64_t period{};   ///< After which numbers begin anew; 0 = never.
-  std::int64_t time_ns{};  ///< That it states, since whenever; two of one number and time are one.
+  std::int64_t period{};  ///< After which numbers begin anew; 0 = never.
+  /// The time that it states, since whenever; two of one number and time are one.
+  std::int64_t time_ns{};
   std::int64_t time_period_ns{};  ///< As `period`, of the time.
   // Where packets are known by their times:
   std::int64_t packet_ns{};  ///< From it to the next one.
@@ -68,7 +69,7 @@ struct TurnAim {
 struct FiringPlace {
   std::uint32_t packet{};  ///< Number among all packets that the decoder was given, from 0.
   std::uint32_t first{};   ///< Byte at which the return of index 0 begins.
-  std::uint32_t second{};  ///< Of index 1, where that has a place of its own; else 0.
+  std::uint32_t second{};  ///< Byte of index 1, where that has a place of its own; else 0.
 };
 
 /// The points of one turn of the rotor in order of time.
@@ -83,9 +84,9 @@ struct SensorTurn {
   /// For each of these cycles, the aim of each of its loops.
   std::vector<TurnAim> aims;
   bool is_dual{};  ///< Whether any of its packets was in dual mode.
-  /// Of each laser in each firing cycle: column * rows + ring.
+  /// For each laser in each firing cycle: column * rows + ring.
   std::vector<FiringPlace> places;
-  /// Of those that a TurnReader was given, the datagram that begins the next turn.
+  /// Index of the datagram that begins the next turn, among those that a TurnReader was given.
   std::uint64_t end_datagram{};
 
   [[nodiscard]] std::size_t num_columns() const { return column_time_ns.size(); }

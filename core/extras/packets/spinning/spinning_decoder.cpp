@@ -13,7 +13,7 @@
 namespace railcast {
 namespace {
 
-/// Of a return: distance and intensity. Reserved bytes may follow.
+/// Bytes of a return: distance and intensity. Reserved bytes may follow.
 constexpr std::size_t kMeasuredSize = 3;
 constexpr double kDegPerUsPerRpm = 360.0 / 60e6;
 

@@ -61,8 +61,8 @@ class SpinningDecoder {
     double azimuth_deg{};
     double turned_us{};      ///< Time of the firing since the rotor was at the block's azimuth.
     std::int64_t time_ns{};  ///< Time of the firing since the start of the cycle.
-    std::uint32_t cycle{};   ///< Of the block.
-    std::uint32_t place{};   ///< Of its return in the blocks.
+    std::uint32_t cycle{};   ///< Firing cycle of the block.
+    std::uint32_t place{};   ///< Place of its return in the blocks.
     std::uint16_t ring{};
     std::uint8_t laser{};
   };
@@ -70,7 +70,7 @@ class SpinningDecoder {
   struct Group {
     std::vector<char> blocks;
     std::uint32_t packet{};  ///< Its number, as FiringPlace counts them.
-    std::uint32_t place{};   ///< Of the blocks in it.
+    std::uint32_t place{};   ///< Place of the blocks in it.
     std::size_t loop{};
     std::int64_t time_ns{};   ///< When the loop begins.
     std::uint16_t azimuth{};  ///< In 0.01 deg.
@@ -111,10 +111,10 @@ class SpinningDecoder {
   std::vector<std::vector<Channel>> loops_;
   std::uint32_t num_packets_{};
   std::vector<Group> cycle_;                    ///< One for each loop.
-  std::size_t num_loops_{};                     ///< Of them that a cycle which is not complete has.
+  std::size_t num_loops_{};                     ///< Loops that an incomplete cycle has.
   std::optional<std::int64_t> last_packet_us_;  ///< Continues counting across hours.
   std::optional<std::uint16_t> last_azimuth_;
-  std::size_t field_{};                ///< Of the last group: the mirror's.
+  std::size_t field_{};                ///< The mirror's field in the last group.
   std::optional<StatedGroup> stated_;  ///< The first one of the turn.
   std::int64_t last_group_ns_{};
   SensorTurn turn_;

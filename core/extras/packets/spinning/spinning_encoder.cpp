@@ -41,9 +41,9 @@ std::uint8_t ModeByte(ReturnMode return_mode) {
 
 /// A laser's firing in a group of blocks.
 struct GroupFiring {
-  std::size_t place{};    ///< Of its return, from the begin of the blocks on.
-  std::size_t row{};      ///< Of the frame.
-  std::size_t cycle{};    ///< Of the group's.
+  std::size_t place{};    ///< Place of its return, from the begin of the blocks on.
+  std::size_t row{};      ///< Row in the frame.
+  std::size_t cycle{};    ///< Which of the group's cycles.
   double near_m{};        ///< It is blind for what is nearer.
   bool sees_near = true;  ///< Whether that is as near as any laser sees.
 };
@@ -69,20 +69,21 @@ std::vector<std::vector<GroupFiring>> FiringsOfLoops(const SpinningModel& model,
 /// The blocks of a loop, or of the cycles that share a block.
 struct EncodedGroup {
   std::size_t loop{};
-  std::uint16_t azimuth{};                 ///< In the packets' units.
-  std::uint8_t fine{};                     ///< In 1/256 of these, where packets say so.
-  std::array<std::uint32_t, 2> columns{};  ///< Of its cycles, as ColumnsOfCycles() has them.
-  std::int64_t begin_ns{};                 ///< When it begins, or would, since the frame's stamp.
-  std::int64_t last_ns{};                  ///< When its last laser fires, likewise.
+  std::uint16_t azimuth{};  ///< In the packets' units.
+  std::uint8_t fine{};      ///< In 1/256 of these, where packets say so.
+  /// Columns of its cycles, as ColumnsOfCycles() has them.
+  std::array<std::uint32_t, 2> columns{};
+  std::int64_t begin_ns{};  ///< When it begins, or would, since the frame's stamp.
+  std::int64_t last_ns{};   ///< When its last laser fires, likewise.
 
   [[nodiscard]] bool fires() const { return columns[0] != kNotFired || columns[1] != kNotFired; }
 };
 
 /// What the packets of a sensor take from the scan of its frames.
 struct EncodedScan {
-  std::vector<PacketFiring> firings;  ///< Of a cycle.
-  std::size_t num_columns{};          ///< Of a frame.
-  double turns_hz{};                  ///< Of the rotor.
+  std::vector<PacketFiring> firings;  ///< Firings of a cycle.
+  std::size_t num_columns{};          ///< Columns of a frame.
+  double turns_hz{};                  ///< Turns of the rotor.
   /// The groups of a frame. If there are several, frames have them in turn, as many in each.
   std::vector<std::vector<EncodedGroup>> frames;
 };
@@ -179,7 +180,7 @@ class SentPackets {
   }
 
  private:
-  std::vector<std::uint64_t> num_before_ = {0};  ///< Of the packets after which all repeats.
+  std::vector<std::uint64_t> num_before_ = {0};  ///< For the packets after which all repeats.
 };
 
 /// Counts the blocks of packets that span frames. Of frames that are left out, their packets are
@@ -326,7 +327,7 @@ class SpinningEncoder final : public FrameEncoder {
   }
 
   void AppendPacket(std::uint64_t sequence, Datagrams& datagrams) {
-    // Those with a date say themselves what these say.
+    // Packets with a date say themselves what position packets say.
     for (; model_.date_place == 0 && *next_position_ns_ <= last_ns_;
          *next_position_ns_ += kNsPerS) {
       AppendPositionPacket(*next_position_ns_, clock_ahead_ns(), datagrams);
@@ -345,7 +346,7 @@ class SpinningEncoder final : public FrameEncoder {
   double unit_m_;
   std::uint16_t least_;  ///< Raw distance that is one.
   std::uint8_t (*byte_of_)(float intensity);
-  std::size_t other_place_;  ///< Of the second return, from the first on.
+  std::size_t other_place_;  ///< From the first return's place to the second's.
   std::vector<std::vector<GroupFiring>> loops_;
   std::size_t blocks_per_group_;
   SentPackets sent_;
@@ -354,7 +355,7 @@ class SpinningEncoder final : public FrameEncoder {
   SpinningPacket packet_;
   PacketFill fill_;
   std::int64_t stated_ns_{};  ///< The simulation time that it states.
-  std::int64_t last_ns_{};    ///< Of its last firing.
+  std::int64_t last_ns_{};    ///< Time of its last firing.
   std::optional<std::int64_t> next_position_ns_;
 };
 

@@ -18,7 +18,7 @@ enum class IntensityBytes {
   kVelodyne,  ///< Reflectivity as defined in velodyne_packet.h.
   kPercent,
   kUnknown,     ///< No reflectivity: frames have the bytes as the foreign field "intensity_byte".
-  kUnknownWide  ///< Likewise, 16 bits: "intensity_16_bit".
+  kUnknownWide  ///< No reflectivity, 16 bits: "intensity_16_bit".
 };
 
 /// The data packets of a spinning sensor, of Velodyne or Hesai: an entry of packets.json, which has
@@ -34,7 +34,7 @@ enum class IntensityBytes {
 /// return mode, the blocks of a loop come twice, with one azimuth, the second time with the other
 /// returns.
 struct SpinningModel {
-  std::string name{};      ///< Of the sensor: "VLP-16". Models of one name stand side by side.
+  std::string name{};      ///< Name of the sensor: "VLP-16". Models of one name stand side by side.
   std::string protocol{};  ///< As command lines and scenarios name it.
   /// Its file in scenarios/sensors, a spinning sensor; empty of AT128, whose angles depend on the
   /// unit.
@@ -49,7 +49,7 @@ struct SpinningModel {
   std::size_t lasers_place{};           ///< u8, their number.
   std::size_t blocks_place{};           ///< u8, their number.
   std::size_t unit_place{};             ///< u8, the unit of distances in mm.
-  std::uint8_t unit_mm = 4;  ///< That which is sent, and of packets that do not state it.
+  std::uint8_t unit_mm = 4;             ///< Unit that is sent, also where packets do not state it.
   /// The last byte of headers of 12 bytes: bit 0 says that the packet has a sequence number, 1
   /// values of an IMU, 2 functional safety, 3 a signature, 4 a confidence for each return. The
   /// bytes before it are the return that the first block holds (0: single, 1: the mode's first) and
@@ -57,7 +57,7 @@ struct SpinningModel {
   std::uint8_t header_flags{};
   std::string header_rule{};  ///< What is said of any other header; empty: what is wrong in it.
 
-  std::vector<std::uint16_t> block_flags{};  ///< Of the blocks in turn.
+  std::vector<std::uint16_t> block_flags{};  ///< Flags of the blocks in turn.
   bool has_fine_azimuth{};
   std::size_t lasers{};       ///< Returns in a block.
   std::size_t blocks{};       ///< In a packet.
@@ -75,14 +75,14 @@ struct SpinningModel {
   std::size_t factory_place{};   ///< u8, 0x42.
   std::size_t sequence_place{};  ///< u32, the packet's number.
   std::size_t safety_place{};    ///< Where functional safety begins.
-  /// Of which bytes, from begin to end, the packet has the CRC-32/MPEG-2, a u32, behind them.
+  /// Bytes, from begin to end, whose CRC-32/MPEG-2, a u32, the packet has behind them.
   std::vector<std::pair<std::size_t, std::size_t>> checked{};
   std::vector<std::uint8_t> single_modes{};  ///< Return modes, rising.
   std::vector<std::uint8_t> dual_modes{};
   /// Whether the mode "first and last" has the last return in the first block, as all modes have
   /// that name the last.
   bool has_last_first{};
-  IntensityBytes intensity = IntensityBytes::kPercent;  ///< Of what is read.
+  IntensityBytes intensity = IntensityBytes::kPercent;  ///< What it is when read.
 
   int year_zero = 1900;  ///< Year of date byte 0; bytes from 100 on count from 1900 in any case.
   /// Whether a date of year byte 0, as all are that are sent, ends in the seconds since 1970.
@@ -98,7 +98,7 @@ struct SpinningModel {
   /// Not 0 if raw distances below 4 say why there is no point (HesaiNoPoint): what is nearer, the
   /// lasers `near_lasers` (rising), which fire for the near field, too, are blind for.
   double near_m{};
-  double far_m{};  ///< Likewise, of all others.
+  double far_m{};  ///< As near_m, for all other lasers.
   std::vector<std::uint8_t> near_lasers{};
 
   /// The lasers of each loop's channels, from 0; in packets.json as ranges, from first to end.

@@ -62,7 +62,7 @@ void StoreChecksums(const SpinningModel& model, std::span<char> packet);
 
 /// What a packet says at its end.
 struct PacketEnd {
-  std::int64_t time_ns{};  ///< That the packet states, since 1970-01-01.
+  std::int64_t time_ns{};  ///< The time that the packet states, since 1970-01-01.
   std::uint16_t speed_rpm{};
   std::uint32_t sequence{};  ///< Number of the packet.
 };

@@ -14,7 +14,7 @@ namespace railcast {
 struct EditedReturn {
   /// Index of the recorded return whose distance it has; absent: it is a new one.
   std::optional<std::uint8_t> from{};
-  float range_m{};  ///< Of a new one.
+  float range_m{};  ///< Range of a new one.
   /// As TurnPoint::intensity; absent: that of the recorded return.
   std::optional<std::uint8_t> intensity{};
   /// Photons, where packets state them; absent: in proportion to the recorded return's.
@@ -26,7 +26,7 @@ using EditedReturns = std::array<std::optional<EditedReturn>, 2>;
 
 /// What returns { u16 distance, u8 intensity } mean in a packet.
 struct ReturnCode {
-  double unit_m{};         ///< Of distances.
+  double unit_m{};         ///< Unit of distances.
   std::uint16_t least{1};  ///< The least distance that is one.
   std::uint16_t none{};    ///< What stands for no return.
   bool has_last = true;    ///< In dual modes: whether the return of index 0 is the last.

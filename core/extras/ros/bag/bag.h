@@ -47,7 +47,7 @@ class TopicList {
 /// Where a message stands in a bag.
 struct BagPlace {
   std::size_t part{};            ///< Index of its file among the bag's files.
-  mcap::MessagePlace in_part{};  ///< Of a database: the message's id in place of the record.
+  mcap::MessagePlace in_part{};  ///< In a database: the message's id in place of the record.
 
   auto operator<=>(const BagPlace&) const = default;
 };
@@ -57,8 +57,9 @@ struct BagMessage {
   std::size_t topic{};  ///< Index of its topic.
   std::int64_t time_ns{};
   std::span<const std::byte> data;
-  BagPlace place{};  ///< Of messages that were read.
-  /// Likewise: the id that the file has for the topic; several publishers may have one each.
+  BagPlace place{};  ///< For messages that were read.
+  /// For messages that were read: the id that the file has for the topic; several publishers may
+  /// have one each.
   std::uint64_t channel{};
 };
 
@@ -110,9 +111,9 @@ using mcap::McapCompression;
 /// What an MCAP file says of itself that is no bag of ROS 2 but a trace: its messages are
 /// serialized by protobuf, and the definition of a topic is a FileDescriptorSet.
 struct McapTrace {
-  std::string name;  ///< Of its record of metadata.
+  std::string name;  ///< Name of its record of metadata.
   std::map<std::string, std::string> metadata;
-  std::map<std::string, std::string> channel_metadata;  ///< Of each channel.
+  std::map<std::string, std::string> channel_metadata;  ///< Metadata of each channel.
 };
 
 /// Creates an MCAP file, with a chunk for each commit. It is named `file` + kUnfinishedSuffix until

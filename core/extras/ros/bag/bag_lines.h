@@ -45,7 +45,7 @@ class Archive;
 /// A line: of a commit, or the last one.
 struct BagLineRecord {
   std::optional<std::size_t> num_messages{};
-  std::string hash{};  ///< Of these.
+  std::string hash{};  ///< Hash of these messages.
   std::map<std::string, std::string> files{};
   std::string tables{};  ///< Hash of what a database holds beside its messages.
 };
@@ -55,12 +55,12 @@ void Describe(Archive& a, BagLineRecord& s);
 struct BagLines {
   struct Commit {
     std::size_t num_messages{};
-    std::string hash;     ///< Of its messages.
+    std::string hash;     ///< Hash of its messages.
     std::uint64_t end{};  ///< Where its line ends in the file.
   };
   std::vector<Commit> commits;
   std::map<std::string, std::string> files{};  ///< Hashes by name; none while it is unfinished.
-  std::string tables{};  ///< Of a database; empty in bags of earlier releases.
+  std::string tables{};  ///< Hash for a database; empty in bags of earlier releases.
 };
 
 /// Reads the lines up to the first that is incomplete or was changed; none without a file.

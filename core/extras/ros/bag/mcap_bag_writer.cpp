@@ -110,7 +110,7 @@ class McapBagWriter : public BagWriter {
   void Close() override {
     Commit();
     writer_.EndChunk();
-    // That of a trace does not change.
+    // The metadata of a trace do not change.
     if (!trace_) WriteMetadata();
     writer_.Finish();
     file_.Finish();

@@ -78,7 +78,7 @@ class SqliteCopy : public BagCopy {
 
   std::filesystem::path copy_;
   std::filesystem::path unfinished_;
-  std::vector<std::string> suffixes_;  ///< Of the files beside it.
+  std::vector<std::string> suffixes_;  ///< Suffixes of the files beside it.
   std::optional<SqliteDatabase> database_;
   std::optional<SqliteStatement> replace_;
 };
@@ -169,7 +169,7 @@ class SqliteBagReader : public BagReader {
                      rule);
   }
 
-  // That of the list's row.
+  // Reads the message of the list's row.
   [[nodiscard]] BagMessage ReadMessage(std::size_t topic) {
     const std::int64_t id = list_->Integer(0);
     if (list_->Integer(3) == 0 || list_->Integer(2) < 0) {

@@ -79,9 +79,9 @@ class McapCopy {
   // The copy.
   bool has_changed_ = false;
   std::uint64_t size_{};
-  std::uint64_t copied_{};                 ///< Of the file.
-  std::uint32_t crc_{};                    ///< Of the section that is being written.
-  std::optional<std::uint64_t> data_end_;  ///< Of the file.
+  std::uint64_t copied_{};                 ///< Bytes of the file.
+  std::uint32_t crc_{};                    ///< CRC of the section that is being written.
+  std::optional<std::uint64_t> data_end_;  ///< Where the file's data end.
   std::vector<std::pair<std::uint64_t, std::int64_t>> shifts_;  ///< From a place of the file on.
   std::map<std::uint64_t, McapChunkIndex> changed_;             ///< By place in the file.
   std::map<std::uint64_t, std::uint64_t> moved_;  ///< Messages of the last chunk, if it changed.

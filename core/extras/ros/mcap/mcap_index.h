@@ -15,14 +15,14 @@ namespace railcast::mcap {
 /// A message that is in no chunk.
 struct LooseMessage {
   std::uint64_t log_time{};
-  std::uint64_t offset{};  ///< Of its record in the file.
+  std::uint64_t offset{};  ///< Offset of its record in the file.
   std::uint16_t channel_id{};
 };
 
 /// The end of a file that was cut off within a record, or has more behind its end.
 struct CutEnd {
   std::uint64_t offset{};     ///< Where the last whole record ends.
-  std::uint64_t num_bytes{};  ///< That follow it.
+  std::uint64_t num_bytes{};  ///< Bytes that follow it.
   bool is_surplus{};          ///< Whether they stand behind the end.
 };
 
@@ -36,7 +36,7 @@ struct McapIndex {
   std::vector<McapMetadataIndex> metadata;
   McapStatistics statistics;
   std::vector<LooseMessage> loose;  ///< In the order of the file; only of a file without summary.
-  std::optional<CutEnd> cut{};      ///< Likewise.
+  std::optional<CutEnd> cut{};      ///< Only of a file without summary.
 
   /// Notes a schema, unless its id is 0.
   /// @throws InputError "schema 3: rule" if another one has its id.
@@ -81,7 +81,7 @@ McapChunkIndex& AddChunk(const McapChunk& chunk,
 struct ScannedFile {
   McapIndex index;
   std::uint64_t size{};  ///< Where the last record ends that was found whole.
-  std::uint32_t crc{};   ///< Of the file up to there.
+  std::uint32_t crc{};   ///< CRC of the file up to there.
   bool is_whole{};       ///< Whether the end of the data was found.
 };
 

@@ -51,7 +51,7 @@ class McapReader {
   /// A message that is still to be returned.
   struct Waiting {
     std::uint64_t log_time{};
-    std::uint64_t file_offset{};  ///< Of its chunk's record, or its own.
+    std::uint64_t file_offset{};  ///< Offset of its chunk's record, or its own.
     std::uint64_t chunk_offset{};
     std::size_t chunk{};  ///< Number of its chunk; kNoChunk if it is loose.
 
@@ -61,7 +61,7 @@ class McapReader {
   struct HeldChunk {
     std::size_t number{};
     Bytes content;
-    Bytes storage;  ///< Of what was compressed.
+    Bytes storage;  ///< Holds what was compressed.
     ByteSpan records;
 
     [[nodiscard]] std::size_t size() const { return content.size() + storage.size(); }

@@ -21,7 +21,7 @@ using ByteSpan = std::span<const std::byte>;
 /// Where a message stands in a file.
 struct MessagePlace {
   std::uint64_t record{};    ///< Offset of the record of its chunk, or of its own.
-  std::uint64_t in_chunk{};  ///< Of its record in the uncompressed chunk.
+  std::uint64_t in_chunk{};  ///< Offset of its record in the uncompressed chunk.
 
   auto operator<=>(const MessagePlace&) const = default;
 };
@@ -138,7 +138,7 @@ struct McapChunkIndex {
   std::uint64_t message_start_time{};
   std::uint64_t message_end_time{};
   std::uint64_t chunk_start_offset{};
-  std::uint64_t chunk_length{};  ///< Of the whole record.
+  std::uint64_t chunk_length{};  ///< Length of the whole record.
   std::map<std::uint16_t, std::uint64_t> message_index_offsets;
   std::uint64_t message_index_length{};
   std::string compression;
@@ -156,7 +156,7 @@ struct McapAttachment {
   std::string name;
   std::string media_type;
   CountedBytes data;
-  std::uint32_t crc{};  ///< Of the fields before it; 0 = not available.
+  std::uint32_t crc{};  ///< CRC of the fields before it; 0 = not available.
 };
 
 struct McapAttachmentIndex {
@@ -164,7 +164,7 @@ struct McapAttachmentIndex {
   static constexpr std::array kFields = {"offset",    "length", "log_time",  "create_time",
                                          "data_size", "name",   "media_type"};
   std::uint64_t offset{};
-  std::uint64_t length{};  ///< Of the whole record.
+  std::uint64_t length{};  ///< Length of the whole record.
   std::uint64_t log_time{};
   std::uint64_t create_time{};
   std::uint64_t data_size{};
@@ -216,7 +216,7 @@ struct McapSummaryOffset {
 struct McapDataEnd {
   static constexpr McapOpcode kOpcode = McapOpcode::kDataEnd;
   static constexpr std::array kFields = {"data_section_crc"};
-  std::uint32_t data_section_crc{};  ///< Of the file up to this record; 0 = not available.
+  std::uint32_t data_section_crc{};  ///< CRC of the file up to this record; 0 = not available.
 };
 
 }  // namespace railcast::mcap

@@ -78,8 +78,8 @@ class McapWriter {
   McapCompression compression_;
   McapFeatures features_;
   McapIndex index_;
-  std::uint64_t size_{};  ///< Of the file so far.
-  std::uint32_t crc_{};   ///< Of the section that is being written.
+  std::uint64_t size_{};  ///< Size of the file so far.
+  std::uint32_t crc_{};   ///< CRC of the section that is being written.
   Bytes buffer_;
 
   Bytes chunk_;  ///< The records of the chunk that is being made.

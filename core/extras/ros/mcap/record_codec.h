@@ -156,7 +156,7 @@ template <typename Record>
 /// A record inside a chunk or a summary.
 struct RecordView {
   McapOpcode opcode{};
-  std::size_t offset{};  ///< Of its opcode, from the begin of the bytes.
+  std::size_t offset{};  ///< Offset of its opcode, from the begin of the bytes.
   ByteSpan content;
 };
 

@@ -12,8 +12,8 @@ namespace railcast::mcap {
 /// A record of a file, of which the content has not been read.
 struct RecordPlace {
   McapOpcode opcode{};
-  std::uint64_t offset{};  ///< Of its opcode in the file.
-  std::uint64_t size{};    ///< Of its content.
+  std::uint64_t offset{};  ///< Offset of its opcode in the file.
+  std::uint64_t size{};    ///< Size of its content.
 
   [[nodiscard]] std::uint64_t end() const { return offset + kRecordHead_bytes + size; }
 };

@@ -44,7 +44,7 @@ template <std::size_t kSize = kGidSize>
 struct ParticipantEntitiesInfo {
   static constexpr std::string_view kName = "rmw_dds_common/msg/ParticipantEntitiesInfo";
   static constexpr std::array kFields = {"gid", "node_entities_info_seq"};
-  Gid<kSize> gid;  ///< Of the participant.
+  Gid<kSize> gid;  ///< Id of the participant.
   std::vector<NodeEntitiesInfo<kSize>> node_entities_info_seq;
 
   bool operator==(const ParticipantEntitiesInfo&) const = default;

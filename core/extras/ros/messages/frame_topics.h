@@ -51,7 +51,7 @@ enum class ImageEncoding {
 
 struct TopicCamera {
   CameraSpec spec;
-  Transform vehicle_from_camera = Transform::Identity();  ///< Of its optical axes.
+  Transform vehicle_from_camera = Transform::Identity();  ///< Pose of its optical axes.
   ImageEncoding encoding = ImageEncoding::kRaw;
 };
 
@@ -61,7 +61,7 @@ struct TopicsSpec {
   std::optional<TopicCamera> camera;  ///< Its images belong to frames of the first sensor.
   /// Their samples belong to frames of the first sensor, too.
   MotionSensorsSpec motion;
-  std::vector<Transform> vehicle_from_imu;  ///< Of each of motion.imus.
+  std::vector<Transform> vehicle_from_imu;  ///< For each of motion.imus.
   CloudSpec clouds;
   OutputSpec output;  ///< Right-handed. Its origin is that of the frame of reference `map`.
   LabelTable labels;
@@ -87,8 +87,9 @@ struct FrameContent {
   const Frame& frame;
   RigidMotion vehicle;  ///< At the stamp.
   std::span<const SceneBox> boxes{};
-  const CameraImage* image{};     ///< Null = the frame has none.
-  const MotionSamples* motion{};  ///< As above. Counts with frames of the first sensor only.
+  const CameraImage* image{};  ///< Null = the frame has none.
+  /// Null = it has none. Counts with frames of the first sensor only.
+  const MotionSamples* motion{};
 };
 
 /// What railcast says about a run on topics of ROS 2, the same live and in bags:

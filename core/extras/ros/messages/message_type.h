@@ -44,7 +44,7 @@ struct BoundedString {
 /// The type of a field as `.msg` files and type hashes (REP-2016, FieldType.msg) name it.
 struct FieldTypeText {
   std::string_view name;  ///< "float64", or that of a message: "std_msgs/msg/Header".
-  int id{};               ///< Of a single value; 1 = a message.
+  int id{};               ///< Id of a single value; 1 = a message.
   std::size_t string_capacity{};
   std::string_view bound{};  ///< Follows the name of a bounded string: "<=256".
 };

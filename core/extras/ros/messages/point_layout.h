@@ -52,7 +52,7 @@ namespace railcast::ros {
 /// How the points of clouds are stored.
 struct CloudSpec {
   PointLayout layout = PointLayout::kRailcast;
-  FieldSelection fields;  ///< Of the layout `railcast` only.
+  FieldSelection fields;  ///< For the layout `railcast` only.
 
   bool operator==(const CloudSpec&) const = default;
 };

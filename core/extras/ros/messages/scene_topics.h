@@ -15,7 +15,7 @@ namespace railcast::ros {
 
 [[nodiscard]] RosVector3 VectorOf(const Vector3& vector);
 [[nodiscard]] Point PointOf(const Vector3& position_m);
-/// Of the two quaternions for a rotation, that with w >= 0.
+/// The one of a rotation's two quaternions that has w >= 0.
 [[nodiscard]] Quaternion QuaternionOf(const Transform& transform);
 [[nodiscard]] Pose PoseOf(const Transform& transform);
 

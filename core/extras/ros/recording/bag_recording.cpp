@@ -79,7 +79,7 @@ class PacketSource : public DatagramSource {
   std::string series_;
   std::size_t num_messages_{};
   std::size_t num_packets_{};
-  std::vector<MessagePacket> packets_;  ///< Of the last message.
+  std::vector<MessagePacket> packets_;  ///< Packets of the last message.
   std::size_t next_{};
 };
 

@@ -54,7 +54,7 @@ class OverlapCheck {
   struct Span {
     std::int64_t begin_ns{}, duration_ns{};
     std::string name;
-    int num_compared{};  ///< Of its neighbours.
+    int num_compared{};  ///< How many neighbours were compared.
   };
   using Spans = std::map<std::uint32_t, Span>;
 

@@ -177,7 +177,7 @@ Cloud MakeCloud(ros::PointCloud2 message) {
   CheckOverlaps(cloud);
   PackRows(message, row_step, cloud);
   if (cloud.num_points() == 0 && cloud.Find("x") == nullptr) {
-    // Of a message without points not all drivers fill in what points have.
+    // Not all drivers fill in what points have if a message has no points.
     for (const char* axis : {"x", "y", "z"}) cloud.AddField(axis, NumberType::kFloat);
   }
   bool is_bigendian = message.is_bigendian;

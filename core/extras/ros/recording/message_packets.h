@@ -13,7 +13,7 @@ namespace railcast {
 struct MessagePacket {
   std::vector<char> payload;
   std::int64_t time_ns{};  ///< When it was received.
-  std::size_t place{};     ///< Of the payload in the message's data.
+  std::size_t place{};     ///< Place of the payload in the message's data.
 };
 
 /// Returns the datagrams in a message, in their order.

@@ -13,7 +13,7 @@
 
 namespace railcast::ros {
 
-/// Of Hesai's and nebula's older drivers.
+/// The packet of Hesai's and nebula's older drivers.
 struct PandarPacket {
   static constexpr std::string_view kName = "pandar_msgs/msg/PandarPacket";
   static constexpr std::array kFields = {"stamp", "data", "size"};
@@ -29,7 +29,7 @@ struct PandarScan {
   std::vector<PandarPacket> packets;
 };
 
-/// Of nebula's drivers.
+/// The packet of nebula's drivers.
 struct NebulaPacket {
   static constexpr std::string_view kName = "nebula_msgs/msg/NebulaPacket";
   static constexpr std::array kFields = {"stamp", "data"};

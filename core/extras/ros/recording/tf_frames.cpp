@@ -102,7 +102,7 @@ std::string FaultOf(const ros::TransformStamped& transform) {
   const auto& [position, rotation] = transform.transform;
   if (!Vector3(position.x, position.y, position.z).allFinite()) return "a position that is none";
   const double length = Eigen::Vector4d(rotation.x, rotation.y, rotation.z, rotation.w).norm();
-  constexpr double kTolerance = 0.1;  // That of tf2.
+  constexpr double kTolerance = 0.1;  // As tf2 has it.
   if (std::abs(length - 1.0) <= kTolerance) return {};
   return "a quaternion of length " + ShortText(length);
 }

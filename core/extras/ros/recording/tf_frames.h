@@ -20,7 +20,7 @@ namespace railcast {
 /// The topics of transforms in a bag.
 struct TfTopics {
   std::vector<std::size_t> chosen;  ///< Indices of those that a topic of clouds belongs to.
-  std::string names;                ///< Of these, as messages show them.
+  std::string names;                ///< Names of these topics, as messages show them.
   std::vector<std::string> others;  ///< Names of all others.
 
   /// @pre There are others.
@@ -89,7 +89,7 @@ class TfTree {
     std::string parent;
     bool is_static{};
     ros::RosTransform last;
-    Vector3 lowest_m, highest_m;  ///< Of its positions.
+    Vector3 lowest_m, highest_m;  ///< Bounds of its positions.
   };
 
   /// The steps to the topmost frame; no more than there are frames.

@@ -72,7 +72,7 @@ class TfPoses {
     std::int64_t time_ns{};
     Vector3 position_m;
     Eigen::Quaterniond rotation;
-    std::size_t topic{};  ///< Of the bag.
+    std::size_t topic{};  ///< Topic of the bag.
   };
   struct TfLink {
     TfStep step;
@@ -97,7 +97,7 @@ class TfPoses {
   [[nodiscard]] static std::optional<Transform> PoseOf(const TfLink& link, std::int64_t time_ns);
 
   std::vector<TfLink> links_;             ///< From the frame to the fixed one.
-  std::vector<std::string> topic_names_;  ///< Of all topics of the bag.
+  std::vector<std::string> topic_names_;  ///< Names of all topics of the bag.
   std::string other_clock_;
   bool is_clock_known_ = true;
   bool is_fixed_ = false;

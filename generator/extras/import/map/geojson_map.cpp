@@ -120,7 +120,7 @@ class GeoJsonReader {
   void ReadCoordinates(const Json& object, const std::string& pointer, const MapTags& tags) {
     struct Kind {
       const char* type;
-      int depth;  ///< Of the lists of positions.
+      int depth;  ///< Depth of the lists of positions.
       bool is_area;
     };
     constexpr std::array<Kind, 6> kKinds = {{{"Point", 0, false},
@@ -155,7 +155,7 @@ class GeoJsonReader {
       const std::string place = pointer + "/" + std::to_string(i);
       if (depth > 1) {
         ReadLists(list[i], depth - 1, like, place);
-        // Of an area, all but the first are holes.
+        // All rings of an area but the first are holes.
         if (like.is_area && depth == 2) break;
       } else {
         AddPosition(list[i], place, line);

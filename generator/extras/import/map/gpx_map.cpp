@@ -84,8 +84,8 @@ class GpxReader final : public XmlMapReader {
   std::vector<std::string> open_;  ///< Elements, outermost first.
   std::vector<MapLine> lines_;
   std::vector<Remark> remarks_;
-  std::size_t first_line_ = 0;  ///< Of the track or route that is open.
-  std::string name_;            ///< Of the same.
+  std::size_t first_line_ = 0;  ///< First line of the track or route that is open.
+  std::string name_;            ///< Name of the same.
   bool has_fix_ = true;         ///< Whether the receiver had one at the last point.
   bool is_loose_ = false;       ///< Whether the last line's points are without a segment.
 };

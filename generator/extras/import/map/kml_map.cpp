@@ -168,10 +168,10 @@ class KmlReader final : public XmlMapReader {
   std::vector<std::string> open_;  ///< Elements, outermost first.
   std::vector<MapLine> lines_;
   std::vector<Remark> remarks_;
-  std::size_t first_line_ = 0;  ///< Of the placemark that is open.
-  MapTags tags_;                ///< Of the same.
-  std::string key_;             ///< Of the data that are open.
-  std::string altitude_mode_;   ///< Of the geometry that is open.
+  std::size_t first_line_ = 0;  ///< First line of the placemark that is open.
+  MapTags tags_;                ///< Tags of the same.
+  std::string key_;             ///< Key of the data that are open.
+  std::string altitude_mode_;   ///< Mode of the geometry that is open.
   double altitude_offset_m_ = 0.0;
   std::uint64_t coordinates_line_{};
 };

@@ -78,7 +78,7 @@ class OsmMapMaker {
   std::unordered_map<std::size_t, std::int64_t> id_of_node_;
   std::unordered_set<std::int64_t> joined_;
   std::size_t num_others_ = 0;
-  std::unordered_set<std::int64_t> other_tracks_;  ///< Of those, the ways that are told.
+  std::unordered_set<std::int64_t> other_tracks_;  ///< Ways among those that are told.
 };
 
 /// Whether the attributes of an element say that it is deleted: `action` as JOSM has it, `visible`

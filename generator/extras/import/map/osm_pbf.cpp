@@ -26,8 +26,8 @@ using protozero::data_view;
 
 struct PbfField {
   std::uint32_t number{};
-  std::uint64_t value{};   ///< Of a number.
-  data_view bytes{"", 0};  ///< Of a message, a text or packed numbers.
+  std::uint64_t value{};   ///< Value of a number.
+  data_view bytes{"", 0};  ///< A message's, a text's, or packed numbers.
 };
 
 /// Visits the fields of a message.
@@ -69,7 +69,7 @@ std::vector<std::int64_t> Sums(data_view packed) {
 struct PbfBlock {
   std::vector<data_view> texts;
   std::int64_t granularity_ndeg = 100;
-  std::int64_t longitude_ndeg = 0;  ///< Of the origin.
+  std::int64_t longitude_ndeg = 0;  ///< Longitude of the origin.
   std::int64_t latitude_ndeg = 0;
 
   void AddTag(std::uint64_t key, std::uint64_t value, MapTags& tags) const {
@@ -100,7 +100,7 @@ struct PbfElement {
   MapTags tags;
   bool is_deleted = false;
   std::vector<std::int64_t> nodes;
-  std::vector<std::int64_t> longitudes;  ///< Of a node, or of those of a way.
+  std::vector<std::int64_t> longitudes;  ///< A node's, or those of a way's nodes.
   std::vector<std::int64_t> latitudes;
 };
 

@@ -79,7 +79,7 @@ struct MapNode {
 
 /// A stretch of one track between two of the nodes at which mappers divide tracks.
 struct MapWay {
-  std::int64_t id{};               ///< Of the source, for messages.
+  std::int64_t id{};               ///< Id in the source, for messages.
   std::vector<std::size_t> nodes;  ///< At least two; no two neighbours are equal.
   MapTags tags;
   std::string place{};  ///< In its file, for messages: "way 7", "/features/3".

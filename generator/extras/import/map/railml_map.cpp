@@ -320,7 +320,7 @@ class RailMlReader {
       if (!all_nets_.contains(id)) {
         errors_.Add({place + "/netElementRef", "must be a netElement of this file", ShownText(id)});
       }
-      // Those of upper levels have no coordinates.
+      // Net elements of upper levels have no coordinates.
       if (net == net_ids_.end()) return;
       const auto begin = NumberOf(associated, place, "intrinsicCoordBegin", 0.0);
       const auto end = NumberOf(associated, place, "intrinsicCoordEnd", 1.0);
@@ -352,7 +352,7 @@ class RailMlReader {
   ErrorList errors_;
   std::vector<Remark> remarks_;
   std::map<std::string, ToDegrees> systems_;  ///< By id.
-  /// Of systems in metres whose points may all be degrees, the first one.
+  /// The first system in metres whose points may all be degrees.
   std::map<std::string, std::string> like_degrees_;
   std::set<std::string> all_nets_;  ///< Also those without coordinates.
   std::vector<NetElement> nets_;

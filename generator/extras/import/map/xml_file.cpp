@@ -130,7 +130,7 @@ class XmlVisit {
   XmlFaults faults_;
   std::unique_ptr<XmlMapReader> reader_;
   std::string text_;
-  std::string other_encoding_;  ///< That is not read.
+  std::string other_encoding_;  ///< An encoding that is not read.
   std::exception_ptr thrown_;
 };
 

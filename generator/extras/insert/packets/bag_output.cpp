@@ -148,7 +148,7 @@ class BagPacketEditor {
   struct HeldMessage {
     EditedMessage message;
     std::uint64_t first_datagram{};
-    std::vector<std::size_t> places;  ///< Of its datagrams.
+    std::vector<std::size_t> places;  ///< Places of its datagrams.
   };
 
   TurnEditor turns_;
@@ -166,7 +166,7 @@ struct TopicCopy {
   std::string series;
   std::unique_ptr<bag::BagCopy> copy;
 
-  /// Those of other series stay as they are: the copy waits for every message of the topic.
+  /// Messages of other series stay as they are: the copy waits for every one of the topic.
   [[nodiscard]] std::optional<bag::BagMessage> Next() const {
     while (auto message = messages->Next()) {
       if (IsOfSeries(*messages, *message, series)) return message;

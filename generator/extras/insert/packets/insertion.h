@@ -45,7 +45,7 @@ class InsertedDatagrams final : public DatagramSource {
   std::deque<HeldDatagram> held_;
   std::uint64_t first_held_{};  ///< Number of their first.
   bool has_turns_ = true;
-  bool is_at_end_ = false;  ///< Of the datagrams.
+  bool is_at_end_ = false;  ///< Whether the datagrams have ended.
   HeldDatagram last_;       ///< What Next() returned.
 };
 

@@ -92,7 +92,7 @@ class CaptureOutput : public InsertedOutput {
   TurnEditor editor_;
   PcapReader reader_;
   UnfinishedFile out_;
-  std::deque<Pieces> held_;     ///< Of each datagram that may still be edited.
+  std::deque<Pieces> held_;     ///< For each datagram that may still be edited.
   std::uint64_t first_held_{};  ///< Number of their first.
 };
 
