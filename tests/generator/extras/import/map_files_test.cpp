@@ -138,7 +138,7 @@ TEST_F(OsmPbfWords, AreRefusedIfABlobHasNoData) {
   const std::string header = BytesField(1, "OSMData") + VarintField(3, Varint(2));
   EXPECT_EQ(
       Fault("map.pbf", FileOfGroups("") + std::string(3, '\0') + static_cast<char>(header.size()) +
-                           header + VarintField(2, Varint(0))),
+                           header + VarintField(2, Varint(1))),
       "map.pbf: block 3: " + std::string(kCompression) + " (got PBF error: blob contains no data)");
 }
 
