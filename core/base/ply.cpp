@@ -96,14 +96,6 @@ void PlyWalk::FailShort(const PlyElement& element) const {
   Fail("ends within its " + NumberText(element.count) + " elements " + ShownText(element.name));
 }
 
-std::size_t PlyWalk::VertexPlace() const {
-  if (std::ranges::count(elements_, "vertex", &PlyElement::name) != 1) {
-    Fail("element vertex: must come once");
-  }
-  const auto vertex = std::ranges::find(elements_, "vertex", &PlyElement::name);
-  return static_cast<std::size_t>(vertex - elements_.begin());
-}
-
 bool PlyWalk::Skip(const PlyElement& element) {
   if (element.properties.empty()) return true;
   for (std::uint32_t i = 0; i < element.count; ++i) {

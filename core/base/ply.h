@@ -46,9 +46,6 @@ class PlyWalk {
   [[noreturn]] void Fail(const std::string& rule) const;
   [[noreturn]] void FailShort(const PlyElement& element) const;
 
-  /// The index of the element `vertex`, which must come once.
-  [[nodiscard]] std::size_t VertexPlace() const;
-
   /// Reads an element: calls `visit(property, number, length)` for each number, where `property` is
   /// the index of its property and `length` that of its list (or 1), and `end()` behind the last
   /// one of each line or row.

@@ -158,7 +158,9 @@ PolygonSoup ReadPlyMesh(const std::string& shown, std::string_view bytes, double
     }
   });
   RefuseSplats(ply);
-  (void)ply.VertexPlace();
+  if (std::ranges::count(ply.elements(), "vertex", &PlyElement::name) > 1) {
+    ply.Fail("element vertex: must come once");
+  }
   for (const PlyElement& element : ply.elements()) ReadMeshElement(element, largest, ply, read);
   for (std::size_t i = 0; i < soup.faces.size(); ++i) {
     for (const std::uint32_t corner : soup.faces[i].corners) {

@@ -48,13 +48,21 @@ std::string_view ReadPlyText(const std::string& file, std::string_view text, Clo
   return text;
 }
 
-void ReadVertexFields(const PlyWalk& ply, const PlyElement& vertex, Cloud& cloud) {
-  for (const PlyProperty& property : vertex.properties) {
+/// Makes the fields of the cloud.
+/// @return Where its element is.
+std::size_t ReadVertexFields(const PlyWalk& ply, Cloud& cloud) {
+  const std::vector<PlyElement>& elements = ply.elements();
+  const auto vertex = std::ranges::find(elements, "vertex", &PlyElement::name);
+  if (std::ranges::count(elements, "vertex", &PlyElement::name) != 1) {
+    ply.Fail("element vertex: must come once");
+  }
+  for (const PlyProperty& property : vertex->properties) {
     if (property.length) ply.Fail("element vertex: every property must be one number");
     cloud.AddField(property.name, property.type);
   }
   if (cloud.fields.empty()) ply.Fail("element vertex: must have properties");
-  cloud.width = vertex.count;
+  cloud.width = vertex->count;
+  return static_cast<std::size_t>(vertex - elements.begin());
 }
 
 /// Passes over the elements that are behind the points, tells if they are cut, and refuses what is
@@ -97,8 +105,7 @@ CloudFile ParsePlyFile(const std::string& file,
   read.is_big_endian = ply.encoding() == PlyEncoding::kBigEndian;
   Cloud& cloud = read.cloud;
   cloud.height = 1;
-  const std::size_t vertex = ply.VertexPlace();
-  ReadVertexFields(ply, ply.elements()[vertex], cloud);
+  const std::size_t vertex = ReadVertexFields(ply, cloud);
   for (std::size_t i = 0; i < vertex; ++i) {
     if (!ply.Skip(ply.elements()[i])) ply.FailShort(ply.elements()[i]);
   }
