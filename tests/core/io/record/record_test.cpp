@@ -21,8 +21,8 @@ struct PartOfRecord {
   std::uint32_t count{};
 };
 void Describe(Archive& a, PartOfRecord& s) {
-  a.Required("name", s.name, "");
-  a.Required("count", s.count, "");
+  a.Required("name", s.name, "A value of the test.");
+  a.Required("count", s.count, "A value of the test.");
 }
 
 struct WholeRecord {
@@ -40,18 +40,18 @@ struct WholeRecord {
   Json any{};
 };
 void Describe(Archive& a, WholeRecord& s) {
-  a.Required("stamp_ns", s.stamp_ns, "");
-  a.Required("share", s.share, "", Within(0, 1));
-  a.Required("place_m", s.place_m, "");
-  a.Required("turn_xyzw", s.turn, "");
-  a.Required("parts", s.parts, "");
-  a.Required("counts", s.counts, "");
-  a.Required("hashes", s.hashes, "");
-  a.Nullable("hidden", s.hidden, "");
-  a.Optional("stride", s.stride, "");
-  a.Optional("note", s.note, "");
-  a.Optional("lines", s.lines, "");
-  a.Optional("any", s.any, "");
+  a.Required("stamp_ns", s.stamp_ns, "A value of the test.");
+  a.Required("share", s.share, "A value of the test.", Within(0, 1));
+  a.Required("place_m", s.place_m, "A value of the test.");
+  a.Required("turn_xyzw", s.turn, "A value of the test.");
+  a.Required("parts", s.parts, "A value of the test.");
+  a.Required("counts", s.counts, "A value of the test.");
+  a.Required("hashes", s.hashes, "A value of the test.");
+  a.Nullable("hidden", s.hidden, "A value of the test.");
+  a.Optional("stride", s.stride, "A value of the test.");
+  a.Optional("note", s.note, "A value of the test.");
+  a.Optional("lines", s.lines, "A value of the test.");
+  a.Optional("any", s.any, "A value of the test.");
 }
 
 constexpr const char* kFull =
