@@ -49,8 +49,7 @@ def read_passed():
     return json.loads(PASSED.read_text(encoding="utf-8")) if PASSED.exists() else {}
 
 
-def keep(names):
-    hashes = {name: hash_of_inputs(name) for name in names}
+def keep(hashes):
     with GROUPS.open(encoding="utf-8") as lock:  # Tests run beside each other.
         fcntl.flock(lock, fcntl.LOCK_EX)
         PASSED.write_text(json.dumps(read_passed() | hashes, indent=1, sort_keys=True) + "\n", encoding="utf-8")
@@ -62,7 +61,7 @@ def is_due(name):
 
 def main(words):
     if words[0] == "--keep":
-        keep(words[1:])
+        keep({name: hash_of_inputs(name) for name in words[1:]})
         return 0
     if words[0] == "--is-due":
         return 0 if is_due(words[1]) else 1
@@ -70,9 +69,10 @@ def main(words):
     if not is_due(name):
         print(f"skipped: nothing that {name} depends on has changed since it passed (scripts/test.sh --all runs it)")
         return SKIPPED
+    tried = hash_of_inputs(name)  # They may be edited while the test runs.
     status = subprocess.run(command, check=False).returncode
     if status == 0 and os.environ.get("RAILCAST_KEEP"):
-        keep([name])
+        keep({name: tried})
     elif status == 0:
         print(f"passed: tests/where_changed.py --keep {name} says so to those who run it next")
     return status
