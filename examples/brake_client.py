@@ -32,9 +32,9 @@ OBSTACLE_LENGTH_M = 1.0  # Points closer than this along the track belong to one
 # distance. Raindrops and snowflakes are scattered and have fewer.
 SMALLEST_M2 = 0.25
 LEAST_SHARE = 0.3
-# The echoes of dense fog lie within 15 m of a sensor like this one, so new obstacles are not
+# The echoes of dense fog lie within 25 m of a sensor like this one, so new obstacles are not
 # searched for there, and the position of a known one is no longer measured.
-NEAREST_M = 16.0
+NEAREST_M = 25.0
 STANDSTILL_MPS = 0.02
 AXES_FLAGS, VEHICLE_AXES = 0b1110, 0b0010  # docs/stream.md
 PATIENCE_S = 60.0
