@@ -2,6 +2,7 @@
 
 #include "analysis/analysis_extras.h"
 #include "analysis/commands.h"
+#include "core/base/inputs.h"
 
 namespace {
 
@@ -29,6 +30,7 @@ void AddCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& comman
 }  // namespace
 
 int main(int argc, char** argv) {
+  const railcast::Inputs inputs;
   return railcast::ProgramMain(
       {.name = "railcast-analyze",
        .description = "LiDAR simulation for railways: measures and compares point clouds.",

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/base/inputs.h"
 
 namespace {
 
@@ -51,6 +52,7 @@ void AddCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& comman
 }  // namespace
 
 int main(int argc, char** argv) {
+  const railcast::Inputs inputs;
   return railcast::ProgramMain(
       {.name = "railcast-generate",
        .description = "LiDAR simulation for railways: makes frames from a scenario.",

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/base/input_file.h"
+#include "core/base/inputs.h"
 
 namespace railcast {
 namespace {
@@ -94,7 +94,7 @@ std::string AsUtf8(std::string bytes) {
 }
 
 std::string ReadTextWhole(const std::filesystem::path& file) {
-  return AsUtf8(ReadFileWhole(file));
+  return AsUtf8(*ReadInput(file));
 }
 
 }  // namespace railcast

@@ -20,8 +20,8 @@ namespace railcast {
 /// The text with the letters A to Z as a to z.
 [[nodiscard]] std::string LowerCase(std::string_view text);
 
-/// The whole file, AsUtf8().
-/// @throws InputError as ReadFileWhole() does.
+/// A whole input, AsUtf8().
+/// @throws InputError as ReadInput() does.
 [[nodiscard]] std::string ReadTextWhole(const std::filesystem::path& file);
 
 }  // namespace railcast

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <system_error>
 
+#include "core/base/inputs.h"
 #include "core/base/file_descriptor.h"
 
 namespace railcast {
@@ -68,6 +69,14 @@ void Replace(const std::filesystem::path& file,
 
 }  // namespace
 
+void CheckIsNoInput(const std::filesystem::path& file) {
+  std::error_code error;
+  for (const std::filesystem::path& input : InputFiles()) {
+    if (!std::filesystem::equivalent(file, input, error)) continue;
+    throw InputError(ShownPath(file) + ": must not be written over, since this command reads it");
+  }
+}
+
 std::filesystem::path FileToReplace(const std::filesystem::path& file) {
   std::error_code error;
   // Checked before links are followed by name, since what /dev/stdout leads to need not have a
@@ -82,6 +91,7 @@ std::filesystem::path FileToReplace(const std::filesystem::path& file) {
     if (error) throw FileError(file, error.value());
   }
   CheckEntryIsRegular(UnfinishedOf(target));
+  CheckIsNoInput(target);
   return target;
 }
 

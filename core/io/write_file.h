@@ -11,10 +11,14 @@ namespace railcast {
 /// The suffix of the name of a file that is still being written.
 inline constexpr std::string_view kUnfinishedSuffix = ".part";
 
+/// @throws InputError "rock.obj: must not be written over, since this command reads it" if the file
+///   is one of InputFiles() by any name.
+void CheckIsNoInput(const std::filesystem::path& file);
+
 /// Returns the file that is replaced when a file is written that the user names: itself or, if it
 /// is a symbolic link, the file that it leads to. The link itself stays.
 /// @throws InputError if that file, or the unfinished file beside it, exists and is not a regular
-///   file: renaming would replace a device or a FIFO by a regular file.
+///   file: renaming would replace a device or a FIFO by a regular file; or as CheckIsNoInput().
 [[nodiscard]] std::filesystem::path FileToReplace(const std::filesystem::path& file);
 
 /// Checks that a file can be written in a folder of railcast's, where a symbolic link would lead to

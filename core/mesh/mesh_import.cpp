@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/input_file.h"
+#include "core/base/inputs.h"
 #include "core/base/shipped_files.h"
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
@@ -201,7 +201,7 @@ std::vector<FileBeside> BuffersBeside(const std::string& bytes, const std::files
     if (!std::filesystem::is_regular_file(beside, error)) {
       throw InputError(shown + ": names " + Quoted(name) + ", which must be a file beside it");
     }
-    files.push_back({name, ReadFileWhole(beside)});
+    files.push_back({name, *ReadInput(beside)});
   }
   return files;
 }
@@ -215,7 +215,7 @@ bool AddBeside(const std::string& given,
   std::error_code error;
   if (!IsNameBeside(name) || !std::filesystem::is_regular_file(beside, error)) return false;
   const auto is_same = [&](const FileBeside& other) { return other.name == name; };
-  if (std::ranges::none_of(files, is_same)) files.push_back({name, ReadFileWhole(beside)});
+  if (std::ranges::none_of(files, is_same)) files.push_back({name, *ReadInput(beside)});
   return true;
 }
 
@@ -267,7 +267,7 @@ ImportedMesh ReadMesh(const std::filesystem::path& file, const MeshUnits& units)
     if (!units.unit_m && !units.y_up) return ReadShippedPly(*shipped);
     return ParseMesh(std::string(*shipped), file, units);
   }
-  std::string bytes = MeshTextOf(ReadFileWhole(file));
+  std::string bytes = MeshTextOf(*ReadInput(file));
   std::vector<Remark> remarks;
   std::vector<FileBeside> beside = BesideOf(bytes, file, remarks);
   ImportedMesh mesh =

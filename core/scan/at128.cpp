@@ -14,7 +14,7 @@
 
 #include "core/base/bytes.h"
 #include "core/base/error.h"
-#include "core/base/input_file.h"
+#include "core/base/inputs.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/scan/firing.h"
@@ -225,17 +225,16 @@ At128Correction::Direction At128Correction::At(double block_deg,
 }
 
 bool IsAt128File(const std::filesystem::path& file) {
-  std::array<char, sizeof kFileFlag> flag{};
-  OpenInput(file).read(flag.data(), flag.size());
-  return LoadAt<std::uint16_t>(flag.data()) == kFileFlag;
+  const InputBytes bytes = ReadInput(file);
+  return bytes->size() >= sizeof kFileFlag && LoadAt<std::uint16_t>(bytes->data()) == kFileFlag;
 }
 
 At128Correction ReadAt128Correction(const std::filesystem::path& file) {
-  const std::string bytes = ReadFileWhole(file);
+  const InputBytes bytes = ReadInput(file);
   return AtPlace(ShownPath(file) + ": ", [&] {
-    CheckFile(bytes);
-    CheckHash(bytes);
-    return At128Correction(bytes);
+    CheckFile(*bytes);
+    CheckHash(*bytes);
+    return At128Correction(*bytes);
   });
 }
 

@@ -4,7 +4,7 @@
 #include <set>
 #include <utility>
 
-#include "core/base/input_file.h"
+#include "core/base/inputs.h"
 #include "core/scenario/descriptions.h"
 
 namespace railcast {
@@ -186,8 +186,8 @@ void JsonReader::Preset(std::string_view key,
   ErrorList faults;
   if (!name.empty()) {
     static_cast<void>(Attempt("", faults, [&] {
-      const std::string text = ReadFileWhole(name);
-      AtPlace(name + ": ", [&] { preset.use(text); });
+      const InputBytes text = ReadInput(name);
+      AtPlace(name + ": ", [&] { preset.use(*text); });
       return true;
     }));
   }

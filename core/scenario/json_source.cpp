@@ -1,11 +1,13 @@
 #include "core/scenario/json_source.h"
 
+#include <unistd.h>
+
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <utility>
 
 #include "core/base/input_file.h"
+#include "core/base/inputs.h"
 #include "core/base/shipped_files.h"
 #include "core/base/text.h"
 
@@ -40,7 +42,7 @@ std::string Obstacle(const fs::path& file) {
   if (!fs::is_regular_file(status)) {
     return "must be a file, not " + std::string(NameOf(status.type()));
   }
-  if (!std::ifstream(file)) return "cannot be read";
+  if (::access(file.c_str(), R_OK) != 0) return "cannot be read";
   return "";
 }
 
@@ -214,6 +216,7 @@ void JsonSource::Missing(const Node& object, std::string_view key) {
 }
 
 std::optional<Node> JsonSource::Load(SourceFile file, std::string resolved_pointer) {
+  NoteInput(file.absolute);
   const std::string text = ReadFileWhole(file.absolute);
   return Parse(text, std::move(file), std::move(resolved_pointer));
 }

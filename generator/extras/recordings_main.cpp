@@ -1,6 +1,7 @@
 // The program that railcast-generate runs for what works on recordings.
 #include <string_view>
 
+#include "core/base/inputs.h"
 #include "generator/commands.h"
 #include "generator/extras/recording_commands.h"
 
@@ -18,6 +19,7 @@ void AddCommandsOfRecordings(railcast::ProgramOptions& app, railcast::ProgramCom
 }  // namespace
 
 int main(int argc, char** argv) {
+  const railcast::Inputs inputs;
   return railcast::ProgramMain(
       {.name = "railcast-generate",
        .description = "Puts objects into recordings, converts and "

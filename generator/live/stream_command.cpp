@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/base/error.h"
+#include "core/base/inputs.h"
 #include "core/base/text.h"
 #include "core/io/run/run_folder.h"
 #include "core/io/run/scenario_identity.h"
@@ -290,6 +291,8 @@ int RunStream(const StreamOptions& options) {
   const ScenarioSpec scenario = ReadForStream(options);
   CheckOptionsTogether(options, SensorNames(scenario).size());
   const std::optional<double> certified_share = CertifiedShareOf(options.certify);
+  // It reads all that the scenario names, over which nothing must be written.
+  const std::string scenario_hash = IdentityOf(scenario).scenario_hash;
   CheckOutputFiles(
       {{"SCENARIO", options.scenario}, {"--calibration", options.calibration.value_or("")}},
       {{"--pcap", options.pcap.value_or("")},
@@ -317,8 +320,9 @@ int RunStream(const StreamOptions& options) {
     commands.emplace(streams.maker(),
                      SourcesOf({topics ? topics->steps() : nullptr, channel.get(),
                                 topics ? topics->commands() : nullptr}),
-                     options.lockstep, options.commands_log, IdentityOf(scenario).scenario_hash);
+                     options.lockstep, options.commands_log, scenario_hash);
   }
+  Inputs::Release();
   CatchStopSignals();
   streams.WarmUp(StopRequested);
   std::cout << ShownLines(Describe(plan, topics_plan, scenario)) << std::flush;

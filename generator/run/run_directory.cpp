@@ -15,6 +15,7 @@
 #include "core/io/content_hash.h"
 #include "core/io/record/record_text.h"
 #include "core/io/run/camera_files.h"
+#include "core/io/run/fixed_file.h"
 #include "core/io/run/motion_files.h"
 #include "core/io/run/run_record.h"
 #include "core/io/run/sequence_files.h"
@@ -27,10 +28,6 @@ namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool HasBytes(const fs::path& file, std::string_view bytes) {
-  return fs::exists(file) && ReadFileWhole(file) == bytes;
-}
 
 std::set<std::uint32_t> MovingInstances(const std::vector<ObjectInFrame>& objects) {
   std::set<std::uint32_t> moving;
@@ -83,9 +80,9 @@ std::vector<std::uint32_t> NumLinesOf(const SequenceSpec& spec, const FrameRecor
 class OwnNames {
  public:
   /// @param fixed The files that are known before the first frame.
-  OwnNames(const SequenceSpec& spec, const std::vector<FrameFile>& fixed) : spec_(spec) {
-    names_ = {std::string(kRunFile), std::string(kManifestFile)};
-    for (const FrameFile& file : fixed) names_.insert(file.name);
+  OwnNames(const SequenceSpec& spec, const std::vector<FixedFile>& fixed) : spec_(spec) {
+    names_ = {std::string(kManifestFile)};
+    for (const FixedFile& file : fixed) names_.insert(file.name);
     for (const LineFileName& file : LineFileNames(spec)) names_.insert(file.name);
   }
 
@@ -206,30 +203,30 @@ void RunDirectory::OpenTrace() {
 std::string RunDirectory::WhatChanged() const {
   const fs::path& directory = spec_.directory;
   if (num_done_ < spec_.num_frames) return "frame " + std::to_string(spec_.FrameAt(num_done_));
-  std::string file = lines_.FileWithOthers();
-  if (!file.empty()) return file;
-  if (!HasBytes(directory / kRunFile, RunJson(spec_))) return std::string(kRunFile);
-  for (const auto& [name, bytes] : FixedFiles()) {
-    if (!HasBytes(directory / name, bytes)) return name;
-  }
-  if (!HasBytes(directory / kManifestFile, ManifestJson())) return std::string(kManifestFile);
-  return "";
+  std::string lines = lines_.FileWithOthers();
+  if (!lines.empty()) return lines;
+  std::vector<FixedFile> files = FixedFiles();
+  files.push_back(FixedText(std::string(kManifestFile), ManifestJson()));
+  const auto changed = std::ranges::find_if_not(
+      files, [&](const FixedFile& file) { return HasFixedFile(directory, file); });
+  return changed == files.end() ? "" : changed->name;
 }
 
-std::vector<FrameFile> RunDirectory::FixedFiles() const {
-  std::vector<FrameFile> files;
-  const auto add = [&files](std::string_view name, std::string bytes) {
-    files.push_back({std::string(name), std::move(bytes)});
+std::vector<FixedFile> RunDirectory::FixedFiles() const {
+  std::vector<FixedFile> files;
+  const auto add = [&files](std::string_view name, std::string text) {
+    files.push_back(FixedText(std::string(name), std::move(text)));
   };
+  add(kRunFile, RunJson(spec_));  // It may have the same content in other bytes.
   add(kScenarioFile, spec_.identity.scenario_json);
-  for (const InputFile& input : spec_.identity.inputs) add(input.CopyName(), input.bytes);
+  for (const InputFile& input : spec_.identity.inputs) files.push_back(input.Copy());
   add(kLabelsFile, LabelsJson(spec_.files.labels));
   add(kMaterialsFile, MaterialsJson(spec_.materials));
   if (!spec_.commands_jsonl.empty()) add(kCommandsFile, spec_.commands_jsonl);
   if (!spec_.camera.empty()) add(CalibrationFileName(spec_.camera), spec_.calibration_json);
   if (const auto& dataset = spec_.files.format->dataset) {
     for (FrameFile& file : dataset->fixed_files(spec_.files.labels)) {
-      files.push_back(std::move(file));
+      add(file.name, std::move(file.bytes));
     }
   }
   return files;
@@ -246,13 +243,9 @@ void RunDirectory::WriteFixedFiles() {
       MakeFolders((directory / name).parent_path());
     }
   }
-  // The file may have the same content in other bytes.
-  if (!HasBytes(directory / kRunFile, RunJson(spec_))) {
-    WriteFileWhole(directory / kRunFile, RunJson(spec_));
-  }
-  for (const auto& [name, bytes] : FixedFiles()) {
-    MakeFolders((directory / name).parent_path());
-    WriteFileWhole(directory / name, bytes);
+  for (const FixedFile& file : FixedFiles()) {
+    const bool is_input = file.name.starts_with(kInputsFolder);
+    WriteFixedFile(directory, file, is_input ? spec_.twin : fs::path());
   }
 }
 
@@ -341,8 +334,8 @@ std::string RunDirectory::ManifestJson() const {
     manifest.fidelity_choice = Json::parse(spec_.fidelity_choice_json);
   }
   // frames.jsonl holds the hash of every frame's files, so these hashes cover the whole content.
-  std::vector<std::string> names = {std::string(kRunFile)};
-  for (const FrameFile& file : FixedFiles()) names.push_back(file.name);
+  std::vector<std::string> names;
+  for (const FixedFile& file : FixedFiles()) names.push_back(file.name);
   for (const LineFileName& file : LineFileNames(spec_)) names.push_back(file.name);
   if (!spec_.trace.empty()) names.push_back(spec_.trace);
   for (const std::string& name : names) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/certify/certified_figures.h"
+#include "core/io/run/fixed_file.h"
 #include "core/io/run/frame_record.h"
 #include "core/io/run/run_folder.h"
 #include "generator/run/frame_maker.h"
@@ -96,8 +97,8 @@ class RunDirectory {
   void AddRecord(const FrameRecord& record);
   // Compares a complete directory with what was written; empty if nothing has changed.
   [[nodiscard]] std::string WhatChanged() const;
-  // Returns the files that are known before the first frame, except run.json.
-  [[nodiscard]] std::vector<FrameFile> FixedFiles() const;
+  // Returns the files that are known before the first frame, run.json first.
+  [[nodiscard]] std::vector<FixedFile> FixedFiles() const;
   void WriteFixedFiles();
   [[nodiscard]] std::string ManifestJson() const;
   [[nodiscard]] std::vector<std::string> RecordLines(const EncodedFrame& frame);

@@ -197,6 +197,7 @@ RunPlan PlanRun(ScenarioSpec scenario, const RunChoices& choices, const std::str
     SequenceSpec& spec =
         plan.sensors.emplace_back(PlanSensor(name, std::move(reduced), choices, shown)).spec;
     if (!plan.scenario.lidars.empty()) spec.directory /= name;
+    if (plan.sensors.size() > 1) spec.twin = plan.sensors.front().spec.directory;
     const std::string_view bag = spec.files.format->bag;
     if (bag.empty()) continue;
     spec.bag = (plan.directory / bag).lexically_relative(spec.directory).generic_string();
@@ -256,7 +257,6 @@ void SetFrames(const FrameMaker& maker, RunPlan& plan) {
     ChooseFrames(first, begin_ns, end_ns, maker.pattern(i), plan.sensors[i]);
   }
   for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
-    CheckSameFiles(plan.sensors[i].scenario, plan.sensors[i].spec.identity);
     if (!plan.sensors[i].spec.files.format->trace.empty()) {
       RunExtras::Get().plan_trace(maker, i, plan.sensors[i]);
     }

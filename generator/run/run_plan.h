@@ -40,6 +40,9 @@ struct SequenceSpec {
   std::string embree_version;  ///< EmbreeVersion().
   std::string isa;             ///< IsaInUse() of the trace.
   ScenarioIdentity identity;   ///< With the command line's seed and rung.
+  /// The directory of the run's first sensor, whose copies of inputs are this one's, too; empty of
+  /// the first.
+  std::filesystem::path twin{};
   /// CommandLogText of the replayed commands; empty if there are none.
   std::string commands_jsonl;
   std::uint64_t seed{};  ///< The scenario's, for the manifest.

@@ -100,10 +100,11 @@ void CheckIsBeside(const std::string& option,
 int RunSequenceCommand(const SequenceOptions& options) {
   CheckIsBeside("--summary", options.summary, options.made.directory);
   CheckIsBeside("--picture", options.picture, options.made.directory);
+  RunPlan plan = PlanOf(options);
+  // Now all that is read is known.
   CheckOutputFiles(
       {{"SCENARIO", options.scenario}, {"--commands", options.commands.value_or("")}},
       {{"--summary", options.summary.value_or("")}, {"--picture", options.picture.value_or("")}});
-  RunPlan plan = PlanOf(options);
   FrameMaker maker(plan.scenario, options.made.num_threads, plan.sensors.front().spec.isa);
   for (std::size_t i = 0; options.is_verbose && i < maker.num_sensors(); ++i) {
     std::cerr << "made the simulator: " << maker.pattern(i).num_firings() << " firings a frame, "

@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <utility>
 
 #include "core/io/write_file.h"
 #include "tests/analysis/analyze_program.h"
+#include "tests/support/effort.h"
 
 namespace railcast {
 namespace {
@@ -99,25 +99,6 @@ TEST_F(LongRecording, IsReadInEveryForm) {
   }
   // Of 2,001 turns the last would not fill a packet, which is not sent.
   ExpectDone("stats " + capture.string() + " --format text", "2002");
-}
-
-/// What a command takes.
-struct Effort {
-  double memory_kb{};  ///< At most.
-  double cpu_s{};
-};
-
-Effort EffortOf(const std::string& command) {
-  const Ended run = RunCommand(
-      "/usr/bin/python3 -c 'import resource, subprocess, sys\n"
-      "subprocess.run(sys.argv[1:], check=True, stdout=subprocess.DEVNULL)\n"
-      "used = resource.getrusage(resource.RUSAGE_CHILDREN)\n"
-      "print(used.ru_maxrss, used.ru_utime + used.ru_stime)' " +
-      command);
-  EXPECT_EQ(run.status, 0) << command << ": " << run.said;
-  Effort effort;
-  std::istringstream(run.said) >> effort.memory_kb >> effort.cpu_s;
-  return effort;
 }
 
 // A line of frames.jsonl has more than 800 bytes, so that of 10,000 frames more than 8 MB would be

@@ -16,6 +16,10 @@
 
 namespace railcast {
 
+inline InputFile ExampleInput(const std::string& name, const std::string& bytes) {
+  return {name, ContentHash(bytes), std::make_shared<const std::string>(bytes), {}, {}};
+}
+
 /// Returns the specification of a run of `num_frames` example frames, beginning with frame 3.
 inline SequenceSpec ExampleRun(const std::filesystem::path& directory,
                                const std::string& format = "pcd",
@@ -27,8 +31,7 @@ inline SequenceSpec ExampleRun(const std::filesystem::path& directory,
   spec.isa = "avx2";
   spec.identity = {"{\"seed\": 5}\n",
                    ContentHash("{\"seed\": 5}\n"),
-                   {{"wagon.obj", ContentHash("a wagon"), "a wagon"},
-                    {"table.csv", ContentHash("a table"), "a table"}}};
+                   {ExampleInput("wagon.obj", "a wagon"), ExampleInput("table.csv", "a table")}};
   spec.seed = 5;
   spec.files = {&ParseFrameFormat(format), FieldSelection(), ExampleLabels()};
   spec.materials = MaterialLibrary({{"ballast", 0.25}, {"rail_head", 0.08}});

@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
+#include "core/base/inputs.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
 #include "core/io/run/scenario_identity.h"
@@ -42,7 +43,8 @@ class FileHashes {
   void Add(const fs::path& file) {
     std::error_code error;
     if (!fs::is_regular_file(file, error)) return;
-    const std::string bytes = ReadFileWhole(file);
+    const InputBytes read = ReadInput(file);
+    const std::string& bytes = *read;
     if (!Note(file, bytes)) return;
     // Parts of scenarios have a version; glTF has not.
     const JsonText text = ParseJson(bytes);

@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
+#include "core/base/inputs.h"
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
 
@@ -173,6 +174,7 @@ SurveyFile::SurveyFile(std::filesystem::path file) : file_(std::move(file)) {
   WithinMemory([&] { return ReadingText(file_); },
                [&] {
                  CheckIsReadable(file_);
+                 NoteInput(file_);
                  const std::uint64_t size = std::filesystem::file_size(file_);
                  constexpr std::size_t kHead = kSurveyMagic.size() + std::size_t{3} * 4;
                  const std::string head = BytesAt(file_, 0, std::min<std::uint64_t>(size, kHead));

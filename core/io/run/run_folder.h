@@ -74,7 +74,8 @@ struct GivenPath {
 
 /// Checks that files are to be written outside of the folders of CheckIsOutside(), and over neither
 /// what a command reads nor each other.
-/// @throws InputError as CheckIsOutside(); "--summary: must not be SCENARIO or in it (got a.json)".
+/// @throws InputError as CheckIsOutside(); "--summary: must not be SCENARIO or in it (got a.json)";
+///   or as CheckIsNoInput(), after the option's name.
 void CheckOutputFiles(std::vector<GivenPath> inputs, const std::vector<GivenPath>& outputs);
 
 /// Makes a folder and those that it lies in, unless they are there.

@@ -81,7 +81,7 @@ void Describe(Archive& a, RunRecord& s) {
 std::vector<KnownFile> RunRecord::Files() const {
   std::vector<KnownFile> files = {{std::string(kScenarioFile), scenario_hash, {}}};
   for (const InputRecord& input : inputs) {
-    const InputFile file{input.name, input.hash, {}, input.folder};
+    const InputFile file{input.name, input.hash, nullptr, {}, input.folder};
     files.push_back({file.CopyName(), file.hash, {}});
   }
   if (!commands_hash.empty()) files.push_back({std::string(kCommandsFile), commands_hash, {}});

@@ -23,34 +23,31 @@ namespace {
 class FileNaming {
  public:
   void Rename(std::string& file) {
-    auto known = copy_of_.find(file);
-    if (known == copy_of_.end()) {
-      InputFile input =
-          InputOf(std::filesystem::path(file).filename().string(), ReadFileWhole(file));
-      known = copy_of_.emplace(file, input.CopyName()).first;
-      Add(std::move(input));
-    }
-    file = known->second;
+    Rename(file, [](const std::filesystem::path& path) { return std::vector{InputOf(path)}; });
   }
   /// A mesh and what is read with it: their copies lie beside each other, too.
   void RenameMesh(std::string& file) {
     if (ShippedFile(file)) return;  // It is the program's.
-    if (!copy_of_.contains(file)) {
-      const std::filesystem::path path = file;
-      std::vector<InputFile> inputs = {InputOf(path.filename().string(), ReadFileWhole(file))};
-      for (FileBeside& beside : FilesBesideMesh(inputs.front().bytes, path)) {
-        inputs.push_back(InputOf(beside.name, std::move(beside.bytes)));
+    Rename(file, [](const std::filesystem::path& path) {
+      std::vector<InputFile> inputs = {InputOf(path)};
+      for (const FileBeside& beside : FilesBesideMesh(*inputs.front().bytes, path)) {
+        inputs.push_back(InputOf(path.parent_path() / beside.name));
       }
-      if (inputs.size() > 1) {
-        std::string names_and_hashes;
-        for (const InputFile& input : inputs)
-          names_and_hashes += input.name + '\n' + input.hash + '\n';
-        for (InputFile& input : inputs) input.folder = ContentHash(names_and_hashes);
-      }
-      copy_of_.emplace(file, inputs.front().CopyName());
-      for (InputFile& input : inputs) Add(std::move(input));
-    }
-    file = copy_of_.at(file);
+      if (inputs.size() == 1) return inputs;
+      std::string names_and_hashes;
+      for (const InputFile& input : inputs)
+        names_and_hashes += input.name + '\n' + input.hash + '\n';
+      for (InputFile& input : inputs) input.folder = ContentHash(names_and_hashes);
+      return inputs;
+    });
+  }
+  void RenameSurvey(std::string& file) {
+    Rename(file, [](const std::filesystem::path& path) {
+      NoteInput(path);
+      const std::string hash = HashFile(path).hash;
+      CheckSurveyFile(path, hash);
+      return std::vector<InputFile>{{path.filename().string(), hash, nullptr, path}};
+    });
   }
   void Rename(LidarSpec& lidar) {
     if (auto* table = std::get_if<FiringTableSpec>(&lidar.scan.pattern)) Rename(table->file);
@@ -60,10 +57,7 @@ class FileNaming {
     Rename(scenario.lidar);
     for (LidarSpec& lidar : scenario.lidars) Rename(lidar);
     if (auto& elevation = scenario.world.terrain.elevation) Rename(elevation->file);
-    if (auto& survey = scenario.world.survey) {
-      CheckSurveyFile(*survey, HashFile(*survey).hash);
-      Rename(*survey);
-    }
+    if (auto& survey = scenario.world.survey) RenameSurvey(*survey);
     if (auto& recording = scenario.world.recording; recording && recording->poses_file) {
       Rename(*recording->poses_file);
     }
@@ -79,14 +73,24 @@ class FileNaming {
   [[nodiscard]] std::vector<InputFile>& inputs() { return inputs_; }
 
  private:
-  static InputFile InputOf(std::string name, std::string bytes) {
-    InputFile input{std::move(name), ContentHash(bytes), {}};
-    input.bytes = std::move(bytes);
-    return input;
+  static InputFile InputOf(const std::filesystem::path& file) {
+    InputBytes bytes = ReadInput(file);
+    std::string hash = ContentHash(*bytes);
+    return {file.filename().string(), std::move(hash), std::move(bytes)};
   }
-  /// The same file may lie in two folders but is stored once.
-  void Add(InputFile input) {
-    if (std::ranges::find(inputs_, input) == inputs_.end()) inputs_.push_back(std::move(input));
+  /// @param read Returns the file and those that are read with it.
+  void Rename(std::string& file,
+              std::vector<InputFile> (*read)(const std::filesystem::path& path)) {
+    auto known = copy_of_.find(file);
+    if (known == copy_of_.end()) {
+      const std::vector<InputFile> inputs = read(file);
+      known = copy_of_.emplace(file, inputs.front().CopyName()).first;
+      // The same file may lie in two folders but is stored once.
+      for (const InputFile& input : inputs) {
+        if (std::ranges::find(inputs_, input) == inputs_.end()) inputs_.push_back(input);
+      }
+    }
+    file = known->second;
   }
 
   std::map<std::string, std::string> copy_of_;  // The name of the copy by the path in the scenario.
@@ -97,6 +101,10 @@ class FileNaming {
 
 std::string InputFile::CopyName() const {
   return std::string(kInputsFolder) + "/" + (folder.empty() ? hash : folder) + "/" + name;
+}
+
+bool InputFile::operator==(const InputFile& other) const {
+  return name == other.name && hash == other.hash && folder == other.folder;
 }
 
 ScenarioIdentity IdentityOf(const ScenarioSpec& scenario) {
@@ -114,22 +122,8 @@ void WriteScenarioFiles(const ScenarioIdentity& identity,
                         const std::filesystem::path& folder,
                         const std::string& name) {
   MakeFolders(folder);
-  for (const InputFile& input : identity.inputs) {
-    MakeFolders((folder / input.CopyName()).parent_path());
-    WriteFileWhole(folder / input.CopyName(), input.bytes);
-  }
+  for (const InputFile& input : identity.inputs) WriteFixedFile(folder, input.Copy());
   WriteFileWhole(folder / name, identity.scenario_json);
-}
-
-void CheckSameFiles(const ScenarioSpec& scenario, const ScenarioIdentity& identity) {
-  const ScenarioIdentity now = IdentityOf(scenario);
-  for (const InputFile& input : now.inputs) {
-    const auto is_same = [&](const InputFile& before) {
-      return before.name == input.name && before.hash == input.hash;
-    };
-    if (std::ranges::any_of(identity.inputs, is_same)) continue;
-    throw InputError(input.name + ": was changed while the scenario was read; run it again");
-  }
 }
 
 ScenarioSpec WithFilesByContent(const ScenarioSpec& scenario) {

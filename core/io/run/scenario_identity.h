@@ -4,24 +4,30 @@
 #include <string>
 #include <vector>
 
+#include "core/base/inputs.h"
+#include "core/io/run/fixed_file.h"
 #include "railcast/scenario.h"
 
 namespace railcast {
 
 /// A file that a run reads besides the scenario's JSON, as it was when it was read: a mesh, a
-/// firing table, a grid of heights, or a file that is read with a mesh.
+/// firing table, a grid of heights, a survey, or a file that is read with a mesh.
 struct InputFile {
-  std::string name;   ///< File name without its folder.
-  std::string hash;   ///< ContentHash of its bytes.
-  std::string bytes;  ///< The whole content.
+  std::string name;  ///< File name without its folder.
+  std::string hash;  ///< ContentHash of its bytes.
+  InputBytes bytes;  ///< The whole content; null of a survey, which may be of any size.
+  std::filesystem::path copy_of{};  ///< The survey.
   /// If a mesh is read with others beside it: the one hash of them all. Empty = the file's own.
   std::string folder{};
 
   /// Returns the path under which a sequence directory keeps the file, relative to that directory:
   /// "inputs/0123456789abcdef/rock.obj".
   [[nodiscard]] std::string CopyName() const;
+  /// The copy.
+  [[nodiscard]] FixedFile Copy() const { return {CopyName(), bytes, copy_of, hash}; }
 
-  bool operator==(const InputFile&) const = default;
+  /// Whether the names, contents and folders are equal.
+  bool operator==(const InputFile& other) const;
 };
 
 /// Identifies a scenario by what it states and by the content of all files that it is read with,
@@ -45,10 +51,6 @@ struct ScenarioIdentity {
 void WriteScenarioFiles(const ScenarioIdentity& identity,
                         const std::filesystem::path& folder,
                         const std::string& name);
-
-/// Checks that the files of a scenario have not been edited between two readings.
-/// @throws InputError if a file that the scenario names has other content than in `identity`.
-void CheckSameFiles(const ScenarioSpec& scenario, const ScenarioIdentity& identity);
 
 /// Returns the scenario with its files named by InputFile::CopyName(), so that two scenarios that
 /// differ only in where equal files lie become equal.

@@ -45,7 +45,7 @@ class ConvertedFiles final : public ConvertOutput {
   }
   [[nodiscard]] std::vector<FixedFile> FixedFiles() const override {
     if (labels_.labels().empty()) return {};
-    return {{std::string(kLabelsFile), LabelsJson(labels_), {}}};
+    return {FixedText(std::string(kLabelsFile), LabelsJson(labels_))};
   }
 
   void Encode(const SourceFrame& source,
@@ -95,7 +95,7 @@ class ConvertedKitti final : public ConvertOutput {
     for (FrameFile& file : format_.dataset->fixed_files(info_.labels)) {
       // Numbers that nothing is known of have no classes.
       if (file.name == kKittiLabelsFile && are_kitti_numbers_) continue;
-      files.push_back({std::move(file.name), std::move(file.bytes), {}});
+      files.push_back(FixedText(std::move(file.name), std::move(file.bytes)));
     }
     return files;
   }

@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
+#include "core/base/inputs.h"
 #include "core/base/text.h"
 #include "core/extras/packets/ouster/ouster_encoder.h"
 #include "core/extras/packets/ouster/ouster_http.h"
@@ -74,13 +75,13 @@ void WriteCorrectionBeside(const SensorStreamSpec& stream, const LidarSpec& lida
   std::filesystem::path file = *stream.pcap;
   file.replace_extension(".dat");
   // When the stream was made, it was checked that the scan is one of these.
-  const std::string bytes = ReadFileWhole(std::get<FiringTableSpec>(lidar.scan.pattern).file);
-  if (std::filesystem::exists(file) && ReadFileWhole(file) != bytes) {
+  const InputBytes bytes = ReadInput(std::get<FiringTableSpec>(lidar.scan.pattern).file);
+  if (std::filesystem::exists(file) && ReadFileWhole(file) != *bytes) {
     throw InputError(ShownPath(file) +
                      ": must be absent or the scan's correction file, which is written "
                      "beside the capture");
   }
-  WriteFileWhole(file, bytes);
+  WriteFileWhole(file, *bytes);
 }
 
 /// What a sensor calls the source of such time. UTC comes as a sentence of NMEA with a pulse.
@@ -95,7 +96,7 @@ Json MetadataOf(const SensorStreamSpec& stream, const LidarSpec& lidar) {
   constexpr std::uint32_t kBroadcast = 0xFFFFFFFF;
   const Endpoint to =
       stream.to.empty() ? Endpoint{kBroadcast, kOusterLidarPort} : stream.to.front();
-  return MetadataOfStream(ReadFileWhole(lidar.ouster_metadata.value()), to,
+  return MetadataOfStream(*ReadInput(lidar.ouster_metadata.value()), to,
                           TimestampMode(stream.clock));
 }
 

@@ -1,8 +1,10 @@
 #include "core/io/write_file.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "core/base/inputs.h"
 #include "core/io/run/run_folder.h"
 #include "core/io/unfinished_file.h"
 #include "tests/core/io/message_of.h"
@@ -101,6 +103,31 @@ TEST(WriteFileWhole, LeavesNothingOnAFullDisk) {
   if (!result.refused.empty()) GTEST_SKIP() << result.refused;
   EXPECT_EQ(result.said,
             (directory.path() / "a.pcd").string() + ": no space left on device|a.pcd 300000");
+}
+
+TEST(WriteNamedFile, DoesNotReplaceAnInputByAnyName) {
+  const Inputs inputs;
+  const TemporaryDirectory directory;
+  const std::filesystem::path read = directory.path() / "rock.obj";
+  const std::filesystem::path noted = directory.path() / "scenario.json";
+  WriteFileWhole(read, "v 0 0 0");
+  WriteFileWhole(noted, "{}");
+  static_cast<void>(ReadInput(read));
+  NoteInput(noted);
+  EXPECT_NO_THROW(WriteNamedFile(directory.path() / "other.json", "written"));
+  const std::filesystem::path link = directory.path() / "link.json";
+  std::filesystem::create_symlink(read, link);
+  const std::filesystem::path twin = directory.path() / "twin.json";
+  std::filesystem::create_hard_link(noted, twin);
+  for (const std::filesystem::path& file :
+       {read, noted, link, twin, directory.path() / "." / "rock.obj"}) {
+    EXPECT_THAT(MessageOf([&] { WriteNamedFile(file, "written"); }),
+                testing::EndsWith(" must not be written over, since this command reads it"))
+        << file;
+    EXPECT_THROW(CheckCanWrite(file), InputError) << file;
+  }
+  EXPECT_EQ(ReadFileWhole(read), "v 0 0 0");
+  EXPECT_EQ(ReadFileWhole(noted), "{}");
 }
 
 }  // namespace

@@ -439,10 +439,10 @@ TEST(RunSequence, RefusesLinksWhereverTheyLead) {
 TEST(RunSequence, KeepsAnInputThatIsCalledAsIfItWereUnfinished) {
   const TemporaryDirectory directory;
   SequenceSpec spec = ExampleRun(directory.path());
-  spec.identity.inputs.push_back({"wagon.part", "0123456789abcdef", "v 0 0 0"});
+  spec.identity.inputs.push_back(ExampleInput("wagon.part", "v 0 0 0"));
   (void)RunSequence(spec, MakeExampleFrame, NoHooks());
   std::filesystem::remove(directory.path() / "manifest.json");
-  const auto copy = directory.path() / "inputs/0123456789abcdef/wagon.part";
+  const auto copy = directory.path() / spec.identity.inputs.back().CopyName();
   WriteFileWhole(directory.path() / "frames/000003.pcd.part", "half");
   EXPECT_TRUE(RunSequence(spec, MakeExampleFrame, NoHooks()).is_complete);
   EXPECT_EQ(ReadFileWhole(copy), "v 0 0 0");

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/base/input_file.h"
+#include "core/base/inputs.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/extras/packets/velodyne/velodyne_packet.h"
@@ -232,9 +232,9 @@ std::unique_ptr<FrameEncoder> MakeOusterEncoder(const LidarSpec& lidar) {
         "its "
         "packets follow (got none)");
   }
-  const std::string text = ReadFileWhole(*lidar.ouster_metadata);
-  const OusterMetadata metadata =
-      AtPlace(ShownPath(*lidar.ouster_metadata) + ": ", [&] { return ParseOusterOfPackets(text); });
+  const InputBytes text = ReadInput(*lidar.ouster_metadata);
+  const OusterMetadata metadata = AtPlace(ShownPath(*lidar.ouster_metadata) + ": ",
+                                          [&] { return ParseOusterOfPackets(*text); });
   CheckReturns(metadata, lidar.receiver.return_mode);
   return std::make_unique<OusterEncoder>(metadata, std::get<SpinningSpec>(lidar.scan.pattern));
 }

@@ -60,7 +60,7 @@ class ConvertedClouds : public RecordingOutput {
     std::vector<FixedFile> files;
     if (!format_.dataset) return files;
     for (FrameFile& file : format_.dataset->fixed_files(table_)) {
-      files.push_back({std::move(file.name), std::move(file.bytes), {}});
+      files.push_back(FixedText(std::move(file.name), std::move(file.bytes)));
     }
     return files;
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/run/fixed_file.h"
 #include "generator/extras/insert/clouds/edit_rows.h"
 #include "generator/extras/insert/insert_plan.h"
 #include "generator/extras/insert/inserted_frame.h"
@@ -19,13 +20,6 @@
 namespace railcast {
 
 struct SequenceSummary;
-
-/// A file that stands beside those of the frames.
-struct FixedFile {
-  std::string name;  ///< Relative to the folder of the recording.
-  std::string bytes;
-  std::filesystem::path copy_of;  ///< The file whose bytes it has instead, unless empty.
-};
 
 /// What a frame adds to the recording that is written.
 struct WrittenFrame {

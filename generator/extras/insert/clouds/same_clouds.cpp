@@ -47,10 +47,10 @@ class SameClouds : public RecordingOutput {
     for (const std::string& name : source_.others) {
       const std::filesystem::path file = source_.directory / name;
       if (is_whole || !HasLinesOfFrames(file)) {
-        files.push_back({name, {}, file});
+        files.push_back({name, nullptr, file});
       } else {
         files.push_back(
-            {name, LinesOfRange(ReadFileWhole(file), range_, source_.frames.size()), {}});
+            FixedText(name, LinesOfRange(ReadFileWhole(file), range_, source_.frames.size())));
       }
     }
     return files;

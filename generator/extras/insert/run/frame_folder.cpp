@@ -87,23 +87,8 @@ void FrameFolder::Open(std::uint32_t num_kept) {
 }
 
 void FrameFolder::WriteFixed(const FixedFile& file) {
-  const fs::path path = spec_.directory / file.name;
   fixed_.push_back(file.name);
-  if (fs::exists(path)) {  // Else what it is to hold need not be read twice.
-    const FileHash wanted = file.copy_of.empty()
-                                ? FileHash{ContentHash(file.bytes), file.bytes.size()}
-                                : HashFile(file.copy_of);
-    if (HasContent(spec_.directory, {file.name, wanted.hash, wanted.num_bytes})) return;
-  }
-  MakeFolders(path.parent_path());
-  if (file.copy_of.empty()) {
-    WriteFileWhole(path, file.bytes);
-    return;
-  }
-  // Beside clouds may stand images and maps of any size.
-  const UnfinishedFile copy(path, 0);
-  copy.AppendFile(file.copy_of);
-  copy.Finish();
+  WriteFixedFile(spec_.directory, file);
 }
 
 void FrameFolder::WriteFiles(const std::vector<FrameFile>& files, FrameRecord& frame) const {

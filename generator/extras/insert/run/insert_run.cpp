@@ -211,14 +211,13 @@ class InsertRun {
   }
 
   void WriteFixed() {
-    folder_.WriteFixed({"plan.resolved.json", plan_.identity.scenario_json, {}});
-    for (const InputFile& input : plan_.identity.inputs) {
-      folder_.WriteFixed({input.CopyName(), input.bytes, {}});
-    }
-    const ScenarioIdentity world = IdentityOf(WorldOf(plan_));
-    folder_.WriteFixed({std::string(kInsertWorldFile), world.scenario_json, {}});
-    folder_.WriteFixed(
-        {std::string(kLabelsFile), LabelsJson(LabelsOf(recording_.info(), plan_)), {}});
+    const auto write = [&](std::string_view name, std::string text) {
+      folder_.WriteFixed(FixedText(std::string(name), std::move(text)));
+    };
+    write("plan.resolved.json", plan_.identity.scenario_json);
+    for (const InputFile& input : plan_.identity.inputs) folder_.WriteFixed(input.Copy());
+    write(kInsertWorldFile, IdentityOf(WorldOf(plan_)).scenario_json);
+    write(kLabelsFile, LabelsJson(LabelsOf(recording_.info(), plan_)));
     for (FixedFile& file : output_->FixedFiles()) {
       file.name = InRecording(file.name);
       folder_.WriteFixed(file);
