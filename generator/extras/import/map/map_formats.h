@@ -75,7 +75,7 @@ inline constexpr double kMostLatitude_deg = 90.0;
 [[nodiscard]] RailMap ReadOsmPbf(const std::filesystem::path& file);
 [[nodiscard]] bool IsOsmPbf(std::string_view begin);
 
-/// Reads a map in XML: OpenStreetMap's (also of Overpass, `out geom;` too), GPX or KML.
+/// Reads a map in XML: OpenStreetMap's (also of Overpass, `out geom;` too), GPX, KML or railML 3.
 /// @throws InputError for each fault, with its line: XML that ends early, another root element,
 ///   longitudes and latitudes that are no degrees, heights that are no numbers, and as OsmMapMaker
 ///   and MapOfLines do.
@@ -85,17 +85,5 @@ inline constexpr double kMostLatitude_deg = 90.0;
 /// @throws InputError for each fault, with JSON pointers: text that is no JSON, another coordinate
 ///   system than WGS 84, coordinates that are no numbers, and as MapOfLines does.
 [[nodiscard]] RailMap ReadGeoJson(const std::filesystem::path& file);
-
-/// Whether a file begins as railML 3 does.
-[[nodiscard]] bool IsRailMl(std::string_view begin);
-
-/// Reads the tracks of a railML 3 file: net elements with coordinates in a geometric positioning
-/// system, whatever its coordinate system, and the speed sections on them.
-///
-/// A net element is a way through its coordinates, in order of `intrinsicCoord`; `z` is its height.
-/// Net elements without coordinates, as upper levels of the topology have none, are left out. Speed
-/// sections divide the ways where they begin and end.
-/// @throws InputError with a line for each fault.
-[[nodiscard]] RailMap ReadRailMl(const std::filesystem::path& file);
 
 }  // namespace railcast

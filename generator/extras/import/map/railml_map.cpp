@@ -1,10 +1,9 @@
-#include "generator/extras/import/map/map_formats.h"
-
-#include <cpl_minixml.h>
 #include <ogr_spatialref.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <map>
@@ -12,35 +11,42 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/text_encoding.h"
-#include "generator/extras/import/map/gdal_errors.h"
+#include "generator/extras/import/map/xml_file.h"
 
 namespace railcast {
 namespace {
 
-using XmlTree = std::unique_ptr<CPLXMLNode, decltype(&CPLDestroyXMLNode)>;
+/// An element that is read, with those in it.
+struct RailMlElement {
+  std::string name;
+  std::map<std::string, std::string, std::less<>> attributes;
+  std::uint64_t line{};
+  std::vector<RailMlElement> inside;
 
-/// Visits the elements of a name at any depth, in the order of the file.
-void VisitElements(const CPLXMLNode* node,
-                   const char* name,
-                   const std::function<void(const CPLXMLNode&)>& visit) {
-  for (; node != nullptr; node = node->psNext) {
-    if (node->eType != CXT_Element) continue;
-    if (EQUAL(node->pszValue, name)) {
-      visit(*node);
-    } else {
-      VisitElements(node->psChild, name, visit);
-    }
+  [[nodiscard]] std::string operator[](std::string_view attribute) const {
+    const auto found = attributes.find(attribute);
+    return found == attributes.end() ? "" : found->second;
   }
-}
+};
 
-std::string Attribute(const CPLXMLNode& element, const char* name) {
-  return CPLGetXMLValue(&element, name, "");
+constexpr std::array<std::string_view, 7> kReadElements = {
+    "associatedNetElement", "geometricCoordinate", "geometricPositioningSystem",
+    "intrinsicCoordinate",  "netElement",          "speedSection",
+    "superelevationCurve"};
+
+/// Visits the elements of a name in another, in the order of the file.
+void VisitElements(const RailMlElement& element,
+                   std::string_view name,
+                   const std::function<void(const RailMlElement&)>& visit) {
+  for (const RailMlElement& inner : element.inside) {
+    if (inner.name == name) visit(inner);
+  }
 }
 
 struct RailMlPoint {
@@ -105,24 +111,70 @@ std::vector<RailMlPoint> PointsWithCants(const NetElement& net) {
   std::ranges::sort(points, {}, &RailMlPoint::intrinsic);
   return points;
 }
-class RailMlReader {
+/// Reads the tracks of railML 3: net elements with coordinates in a geometric positioning system,
+/// whatever its coordinate system, and the speed sections and cants on them.
+///
+/// A net element is a way through its coordinates, in order of `intrinsicCoord`; `z` is its height.
+/// Net elements without coordinates, as upper levels of the topology have none, are left out. Speed
+/// sections divide the ways where they begin and end.
+class RailMlReader final : public XmlMapReader {
  public:
-  void Read(const CPLXMLNode* root) {
-    VisitElements(root, "geometricPositioningSystem",
-                  [&](const CPLXMLNode& element) { ReadSystem(element); });
-    VisitElements(root, "netElement", [&](const CPLXMLNode& element) { ReadNetElement(element); });
-    for (const auto& [id, first] : like_degrees_) {
-      if (first.empty()) continue;
-      errors_.Add({"geometricPositioningSystem " + ShownText(id),
-                   "must have a point that is in metres, and no degrees", first});
+  explicit RailMlReader(XmlFaults& faults) : faults_(faults) {}
+
+  void Begin(const XmlElement& element) override {
+    // Version 2 has a root in small letters.
+    if (open_.empty() && element.name == "railml") {
+      const char* const version = element.ValueOf("version");
+      throw InputError("must be railML 3, which has coordinates of its net (got railML " +
+                       ShownText(version == nullptr ? "2" : version) + ")");
     }
-    VisitElements(root, "speedSection",
-                  [&](const CPLXMLNode& element) { ReadSpeedSection(element); });
-    VisitElements(root, "superelevationCurve",
-                  [&](const CPLXMLNode& element) { ReadSuperelevation(element); });
+    RailMlElement& outer = open_.empty() ? root_ : *open_.back().nearest;
+    const bool is_read = std::ranges::find(kReadElements, element.name) != kReadElements.end();
+    if (element.name == "name" && !open_.empty() && open_.back().is_read) {
+      const char* const name = element.ValueOf("name");
+      if (name != nullptr) outer.attributes["name"] = name;
+    }
+    if (is_read) {
+      RailMlElement& inner = outer.inside.emplace_back();
+      inner.name = element.name;
+      inner.line = element.line;
+      for (const char* const* at = element.attributes; *at != nullptr; at += 2) {
+        inner.attributes.emplace(at[0], at[1]);
+      }
+      open_.push_back({&inner, true});
+    } else {
+      open_.push_back({&outer, false});
+    }
+  }
+  void End(std::string_view /*name*/, std::string_view /*text*/, std::uint64_t /*line*/) override {
+    open_.pop_back();
   }
 
-  [[nodiscard]] ErrorList& errors() { return errors_; }
+  RailMap Make() override {
+    Read();
+    faults_.list().ThrowIfAny();
+    RailMap map = Map();
+    if (!map.ways.empty()) return map;
+    throw InputError("must have a netElement with geometricCoordinates (got none)");
+  }
+
+ private:
+  void Read() {
+    VisitElements(root_, "geometricPositioningSystem",
+                  [&](const RailMlElement& element) { ReadSystem(element); });
+    VisitElements(root_, "netElement",
+                  [&](const RailMlElement& element) { ReadNetElement(element); });
+    for (const auto& [id, first] : like_degrees_) {
+      if (first.place.empty()) continue;
+      faults_.Add(first.line, "geometricPositioningSystem " + ShownText(id),
+                  "must have a point that is in metres, and no degrees", first.place);
+    }
+    VisitElements(root_, "speedSection",
+                  [&](const RailMlElement& element) { ReadSpeedSection(element); });
+    VisitElements(root_, "superelevationCurve",
+                  [&](const RailMlElement& element) { ReadSuperelevation(element); });
+  }
+
   [[nodiscard]] RailMap Map() const {
     RailMap map;
     map.remarks = remarks_;
@@ -165,35 +217,34 @@ class RailMlReader {
     return map;
   }
 
- private:
-  void ReadSystem(const CPLXMLNode& element) {
-    const std::string id = Attribute(element, "id");
-    const std::string definition = Attribute(element, "crsDefinition");
+  void ReadSystem(const RailMlElement& element) {
+    const std::string id = element["id"];
+    const std::string definition = element["crsDefinition"];
     OGRSpatialReference from;
     OGRSpatialReference to;
     to.SetFromUserInput("EPSG:4326");
     if (definition.empty() || from.SetFromUserInput(definition.c_str()) != OGRERR_NONE) {
-      errors_.Add({"geometricPositioningSystem " + ShownText(id) + "/crsDefinition",
-                   "must be a coordinate system that PROJ knows, such as EPSG:4326",
-                   definition.empty() ? "none" : ShownText(definition)});
+      faults_.Add(element.line, "geometricPositioningSystem " + ShownText(id) + "/crsDefinition",
+                  "must be a coordinate system that PROJ knows, such as EPSG:4326",
+                  definition.empty() ? "none" : ShownText(definition));
       systems_[id] = nullptr;
       return;
     }
     // x is longitude or easting, whatever the system says (RTM:geometricCoordinate).
     from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     to.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    if (from.IsProjected() != 0) like_degrees_[id];
+    if (from.IsProjected() != 0) like_degrees_[id].line = element.line;
     systems_[id] = ToDegrees(OGRCreateCoordinateTransformation(&from, &to));
   }
 
-  void ReadNetElement(const CPLXMLNode& element) {
-    NetElement net{Attribute(element, "id"), CPLGetXMLValue(&element, "name.name", ""), {}, {}, {}};
+  void ReadNetElement(const RailMlElement& element) {
+    NetElement net{element["id"], "", {}, {}, {}};
     const std::string place = "netElement " + ShownText(net.id);
     all_nets_.insert(net.id);
-    const std::size_t num_faults = errors_.size();
-    VisitElements(element.psChild, "intrinsicCoordinate",
-                  [&](const CPLXMLNode& intrinsic) { ReadPoint(intrinsic, place, net); });
-    if (net.points.empty() || errors_.size() > num_faults) return;
+    const std::size_t num_faults = faults_.list().size();
+    VisitElements(element, "intrinsicCoordinate",
+                  [&](const RailMlElement& intrinsic) { ReadPoint(intrinsic, place, net); });
+    if (net.points.empty() || faults_.list().size() > num_faults) return;
     std::ranges::stable_sort(net.points, {}, &RailMlPoint::intrinsic);
     const auto is_same = [](const RailMlPoint& a, const RailMlPoint& b) {
       return a.geographic_deg == b.geographic_deg;
@@ -202,8 +253,8 @@ class RailMlReader {
     net.points.erase(std::unique(net.points.begin(), net.points.end(), is_same), net.points.end());
     const auto twice = std::ranges::adjacent_find(net.points, {}, &RailMlPoint::intrinsic);
     if (twice != net.points.end()) {
-      errors_.Add({place, "must have one point at each intrinsicCoord",
-                   "two at " + NumberText(twice->intrinsic)});
+      faults_.Add(element.line, place, "must have one point at each intrinsicCoord",
+                  "two at " + NumberText(twice->intrinsic));
       return;
     }
     const auto num_without = std::ranges::count_if(
@@ -213,54 +264,55 @@ class RailMlReader {
           {RemarkKind::kHeightsMissing, place, static_cast<std::uint64_t>(num_without)});
     }
     if (net.points.size() < 2) {
-      errors_.Add(
-          {place, "must have two different points or more", std::to_string(net.points.size())});
+      faults_.Add(element.line, place, "must have two different points or more",
+                  std::to_string(net.points.size()));
       return;
     }
     if (!net_ids_.emplace(net.id, nets_.size()).second) {
-      errors_.Add({place, "must be there once", "twice"});
+      faults_.Add(element.line, place, "must be there once", "twice");
       return;
     }
     nets_.push_back(std::move(net));
   }
 
-  void ReadPoint(const CPLXMLNode& intrinsic, const std::string& place, NetElement& net) {
-    const CPLXMLNode* coordinate = CPLGetXMLNode(&intrinsic, "geometricCoordinate");
-    if (coordinate == nullptr) return;
+  void ReadPoint(const RailMlElement& intrinsic, const std::string& place, NetElement& net) {
+    const auto coordinate =
+        std::ranges::find(intrinsic.inside, "geometricCoordinate", &RailMlElement::name);
+    if (coordinate == intrinsic.inside.end()) return;
     constexpr double kNeeded = std::numeric_limits<double>::quiet_NaN();
     const auto at = NumberOf(intrinsic, place, "intrinsicCoord", kNeeded);
     const auto x = NumberOf(*coordinate, place, "x", kNeeded);
     const auto y = NumberOf(*coordinate, place, "y", kNeeded);
     if (!at || !x || !y) return;
-    const std::string id = Attribute(*coordinate, "positioningSystemRef");
+    const std::string id = (*coordinate)["positioningSystemRef"];
     const auto system = systems_.find(id);
     if (system == systems_.end()) {
-      errors_.Add({place + "/positioningSystemRef",
-                   "must be a geometricPositioningSystem of this file",
-                   id.empty() ? "none" : ShownText(id)});
+      faults_.Add(coordinate->line, place + "/positioningSystemRef",
+                  "must be a geometricPositioningSystem of this file",
+                  id.empty() ? "none" : ShownText(id));
       return;
     }
     if (!system->second) return;  // Its fault is known.
     if (const auto first = like_degrees_.find(id); first != like_degrees_.end()) {
       if (std::abs(*x) > kMostLongitude_deg || std::abs(*y) > kMostLatitude_deg) {
         like_degrees_.erase(first);
-      } else if (first->second.empty()) {
-        first->second = NumberText(*x) + ", " + NumberText(*y);
+      } else if (first->second.place.empty()) {
+        first->second.place = NumberText(*x) + ", " + NumberText(*y);
       }
     }
     RailMlPoint point{*at, {*x, *y}, {}};
     if (system->second->Transform(1, &point.geographic_deg.x(), &point.geographic_deg.y()) == 0 ||
         !(std::abs(point.geographic_deg.x()) <= kMostLongitude_deg &&
           std::abs(point.geographic_deg.y()) <= kMostLatitude_deg)) {
-      errors_.Add({place, "must be a place in its coordinate system",
-                   NumberText(*x) + ", " + NumberText(*y)});
+      faults_.Add(coordinate->line, place, "must be a place in its coordinate system",
+                  NumberText(*x) + ", " + NumberText(*y));
       return;
     }
-    if (!Attribute(*coordinate, "z").empty()) {
+    if (!(*coordinate)["z"].empty()) {
       const auto height_m = NumberOf(*coordinate, place, "z", kNeeded);
       if (!height_m) return;
       if (!IsHeight(*height_m)) {
-        errors_.Add({place + "/z", kHeightRule, NumberText(*height_m)});
+        faults_.Add(coordinate->line, place + "/z", kHeightRule, NumberText(*height_m));
         return;
       }
       point.height_m = height_m;
@@ -268,9 +320,9 @@ class RailMlReader {
     net.points.push_back(point);
   }
 
-  void ReadSpeedSection(const CPLXMLNode& element) {
-    const std::string place = "speedSection " + ShownText(Attribute(element, "id"));
-    const std::string speed = Attribute(element, "maxSpeed");
+  void ReadSpeedSection(const RailMlElement& element) {
+    const std::string place = "speedSection " + ShownText(element["id"]);
+    const std::string speed = element["maxSpeed"];
     const std::optional<double> value_kmph = NumberIn(speed);
     // Some say "end of track section" or refer to a profile.
     if (!value_kmph) {
@@ -279,7 +331,7 @@ class RailMlReader {
       return;
     }
     if (!(*value_kmph > 0.0)) {
-      errors_.Add({place + "/maxSpeed", "must be > 0", ShownText(speed)});
+      faults_.Add(element.line, place + "/maxSpeed", "must be > 0", ShownText(speed));
       return;
     }
     VisitStretches(element, place, [&](NetElement& net, double begin, double end) {
@@ -291,8 +343,8 @@ class RailMlReader {
     });
   }
 
-  void ReadSuperelevation(const CPLXMLNode& element) {
-    const std::string place = "superelevationCurve " + ShownText(Attribute(element, "id"));
+  void ReadSuperelevation(const RailMlElement& element) {
+    const std::string place = "superelevationCurve " + ShownText(element["id"]);
     const auto begin_mm =
         NumberOf(element, place, "superelevation", std::numeric_limits<double>::quiet_NaN());
     const auto change_mm = NumberOf(element, place, "deltaSuperelevation", 0.0);
@@ -300,8 +352,8 @@ class RailMlReader {
     const double end_mm = *begin_mm + *change_mm;
     const auto is_cant = [](double cant_mm) { return cant_mm >= 0.0 && cant_mm <= 300.0; };
     if (!is_cant(*begin_mm) || !is_cant(end_mm)) {
-      errors_.Add({place, "must have cants from 0 to 300 mm",
-                   NumberText(*begin_mm) + ", " + NumberText(end_mm)});
+      faults_.Add(element.line, place, "must have cants from 0 to 300 mm",
+                  NumberText(*begin_mm) + ", " + NumberText(end_mm));
       return;
     }
     VisitStretches(element, place, [&](NetElement& net, double begin, double end) {
@@ -311,14 +363,15 @@ class RailMlReader {
 
   /// Visits the net elements with coordinates on which something is, with its intrinsic
   /// coordinates.
-  void VisitStretches(const CPLXMLNode& element,
+  void VisitStretches(const RailMlElement& element,
                       const std::string& place,
                       const std::function<void(NetElement&, double begin, double end)>& visit) {
-    VisitElements(element.psChild, "associatedNetElement", [&](const CPLXMLNode& associated) {
-      const std::string id = Attribute(associated, "netElementRef");
+    VisitElements(element, "associatedNetElement", [&](const RailMlElement& associated) {
+      const std::string id = associated["netElementRef"];
       const auto net = net_ids_.find(id);
       if (!all_nets_.contains(id)) {
-        errors_.Add({place + "/netElementRef", "must be a netElement of this file", ShownText(id)});
+        faults_.Add(associated.line, place + "/netElementRef", "must be a netElement of this file",
+                    ShownText(id));
       }
       // Net elements of upper levels have no coordinates.
       if (net == net_ids_.end()) return;
@@ -326,8 +379,9 @@ class RailMlReader {
       const auto end = NumberOf(associated, place, "intrinsicCoordEnd", 1.0);
       if (!begin || !end) return;
       if (!(*begin >= 0.0 && *end <= 1.0 && *begin < *end)) {
-        errors_.Add({place, "must have intrinsicCoordBegin < intrinsicCoordEnd, both from 0 to 1",
-                     NumberText(*begin) + ", " + NumberText(*end)});
+        faults_.Add(associated.line, place,
+                    "must have intrinsicCoordBegin < intrinsicCoordEnd, both from 0 to 1",
+                    NumberText(*begin) + ", " + NumberText(*end));
         return;
       }
       visit(nets_[net->second], *begin, *end);
@@ -335,70 +389,45 @@ class RailMlReader {
   }
 
   /// A number; `otherwise` if it is not given, unless that is NaN.
-  [[nodiscard]] std::optional<double> NumberOf(const CPLXMLNode& element,
+  [[nodiscard]] std::optional<double> NumberOf(const RailMlElement& element,
                                                const std::string& place,
                                                const char* name,
                                                double otherwise) {
-    const std::string text = Attribute(element, name);
+    const std::string text = element[name];
     if (text.empty() && !std::isnan(otherwise)) return otherwise;
     const std::optional<double> value = NumberIn(text);
     if (!value) {
-      errors_.Add(
-          {place + "/" + name, "must be a number", text.empty() ? "none" : ShownText(text)});
+      faults_.Add(element.line, place + "/" + name, "must be a number",
+                  text.empty() ? "none" : ShownText(text));
     }
     return value;
   }
 
-  ErrorList errors_;
+  struct Open {
+    RailMlElement* nearest;  ///< The innermost that is read; nothing is added beside it meanwhile.
+    bool is_read;            ///< Whether it is the open element itself.
+  };
+
+  XmlFaults& faults_;
+  RailMlElement root_;
+  std::vector<Open> open_;  ///< Elements, outermost first.
   std::vector<Remark> remarks_;
   std::map<std::string, ToDegrees> systems_;  ///< By id.
-  /// The first system in metres whose points may all be degrees.
-  std::map<std::string, std::string> like_degrees_;
+  /// By id: systems in metres whose points may all be degrees.
+  struct LikeDegrees {
+    std::uint64_t line{};
+    std::string place;  ///< Its first point, if it has one.
+  };
+  std::map<std::string, LikeDegrees> like_degrees_;
   std::set<std::string> all_nets_;  ///< Also those without coordinates.
   std::vector<NetElement> nets_;
   std::map<std::string, std::size_t> net_ids_;
 };
 
-/// Version 2 has a root in small letters.
-void RefuseOlder(const CPLXMLNode& tree, const std::filesystem::path& file) {
-  for (const CPLXMLNode* node = &tree; node != nullptr; node = node->psNext) {
-    if (node->eType != CXT_Element || std::string_view(node->pszValue) != "railml") continue;
-    throw InputError(ShownPath(file) +
-                     ": must be railML 3, which has coordinates of its net (got "
-                     "railML " +
-                     ShownText(CPLGetXMLValue(node, "version", "2")) + ")");
-  }
-}
-
 }  // namespace
 
-bool IsRailMl(std::string_view begin) {
-  // Version 2 has small letters.
-  for (const std::string_view root : {"<railML", ":railML", "<railml", ":railml"}) {
-    if (begin.find(root) != std::string_view::npos) return true;
-  }
-  return false;
-}
-
-RailMap ReadRailMl(const std::filesystem::path& file) {
-  const std::string text = ReadTextWhole(file);
-  GdalErrors gdal_errors;
-  const XmlTree tree(CPLParseXMLString(text.c_str()), &CPLDestroyXMLNode);
-  if (!tree) {
-    throw InputError(ShownPath(file) + ": must be XML to its end (" +
-                     ShownText(gdal_errors.first()) + ")");
-  }
-  CPLStripXMLNamespace(tree.get(), nullptr, 1);
-  RefuseOlder(*tree, file);
-  RailMlReader reader;
-  reader.Read(tree.get());
-  AtPlace(ShownPath(file) + ": ", [&] { reader.errors().ThrowIfAny(); });
-  RailMap map = reader.Map();
-  if (map.ways.empty()) {
-    throw InputError(ShownPath(file) +
-                     ": must have a netElement with geometricCoordinates (got none)");
-  }
-  return map;
+std::unique_ptr<XmlMapReader> MakeRailMlReader(XmlFaults& faults) {
+  return std::make_unique<RailMlReader>(faults);
 }
 
 }  // namespace railcast

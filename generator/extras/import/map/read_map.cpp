@@ -74,7 +74,6 @@ RailMap ReadAnyMap(const std::filesystem::path& file) {
   }
   const std::string begin = AsUtf8(bytes);
   if (IsOverpass(begin)) return ReadOverpassJson(file);
-  if (IsRailMl(begin)) return ReadRailMl(file);
   if (FirstOf(begin) != '<' && FirstOf(begin) != '{') {
     throw InputError(ShownPath(file) +
                      ": must be a map: Overpass JSON, .osm, .pbf, GeoJSON, GPX, KML or railML 3");

@@ -121,6 +121,10 @@ class XmlVisit {
     if (LocalName(root) == "osm") reader_ = MakeOsmXmlReader(faults_);
     if (LocalName(root) == "gpx") reader_ = MakeGpxReader(faults_);
     if (LocalName(root) == "kml") reader_ = MakeKmlReader(faults_);
+    // Version 2 has small letters.
+    if (LocalName(root) == "railML" || LocalName(root) == "railml") {
+      reader_ = MakeRailMlReader(faults_);
+    }
     if (reader_) return;
     throw InputError("must be a map: of OpenStreetMap (<osm>), GPX, KML or railML 3 (got <" +
                      ShownText(root) + ">)");

@@ -49,6 +49,7 @@ class XmlMapReader {
 [[nodiscard]] std::unique_ptr<XmlMapReader> MakeOsmXmlReader(XmlFaults& faults);
 [[nodiscard]] std::unique_ptr<XmlMapReader> MakeGpxReader(XmlFaults& faults);
 [[nodiscard]] std::unique_ptr<XmlMapReader> MakeKmlReader(XmlFaults& faults);
+[[nodiscard]] std::unique_ptr<XmlMapReader> MakeRailMlReader(XmlFaults& faults);
 
 /// Text without blanks at its ends.
 [[nodiscard]] std::string_view XmlTrimmed(std::string_view text);

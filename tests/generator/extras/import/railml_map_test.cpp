@@ -129,7 +129,8 @@ TEST_F(RailMl, TakesOtherCoordinateSystems) {
 
 TEST_F(RailMl, IsRefusedWhereAllPointsOfASystemInMetresMayBeDegrees) {
   EXPECT_EQ(Fault(Track(), "EPSG:31256"),
-            "net.xml: geometricPositioningSystem gps: must have a point that is in metres, and no "
+            "net.xml: line 3, geometricPositioningSystem gps: must have a point that is in metres, "
+            "and no "
             "degrees (got 15.6, 48.2)");
   const RailMap map =
       Read(Net("ne1", Point("0", R"(x="50" y="20")") + Point("1", R"(x="950" y="20")")),
@@ -146,35 +147,42 @@ TEST_F(RailMl, IsRefusedByNameInItsOlderVersion) {
 
 TEST_F(RailMl, IsRefusedInOneLineWhereItIsWrong) {
   EXPECT_EQ(Fault(""), "net.xml: must have a netElement with geometricCoordinates (got none)");
-  EXPECT_EQ(Fault(Track(), "EPSG:99999"),
-            "net.xml: geometricPositioningSystem gps/crsDefinition: must be a coordinate system "
-            "that PROJ knows, such as EPSG:4326 (got EPSG:99999)");
+  EXPECT_EQ(
+      Fault(Track(), "EPSG:99999"),
+      "net.xml: line 3, geometricPositioningSystem gps/crsDefinition: must be a coordinate system "
+      "that PROJ knows, such as EPSG:4326 (got EPSG:99999)");
   EXPECT_EQ(Fault(R"(<netElement id="ne1"><intrinsicCoordinate intrinsicCoord="0">
 <geometricCoordinate positioningSystemRef="map" x="15.6" y="48.2"/></intrinsicCoordinate>
 </netElement>)"),
-            "net.xml: netElement ne1/positioningSystemRef: must be a geometricPositioningSystem of "
+            "net.xml: line 3, netElement ne1/positioningSystemRef: must be a "
+            "geometricPositioningSystem of "
             "this file (got map)");
   EXPECT_EQ(Fault(Net("ne1", Point("0", R"(x="15.6")"))),
-            "net.xml: netElement ne1/y: must be a number (got none)");
+            "net.xml: line 3, netElement ne1/y: must be a number (got none)");
   EXPECT_EQ(Fault(Net("ne1", Point("0", R"(x="15.6" y="north")"))),
-            "net.xml: netElement ne1/y: must be a number (got north)");
-  EXPECT_EQ(Fault(Net("ne1", Point("0", R"(x="612345" y="5345678")"))),
-            "net.xml: netElement ne1: must be a place in its coordinate system (got 612345, "
-            "5345678)");
+            "net.xml: line 3, netElement ne1/y: must be a number (got north)");
+  EXPECT_EQ(
+      Fault(Net("ne1", Point("0", R"(x="612345" y="5345678")"))),
+      "net.xml: line 3, netElement ne1: must be a place in its coordinate system (got 612345, "
+      "5345678)");
   EXPECT_EQ(Fault(Net("ne1", Point("0", R"(x="15.6" y="48.2")"))),
-            "net.xml: netElement ne1: must have two different points or more (got 1)");
-  EXPECT_EQ(Fault(Net("ne1", Point("0", R"(x="15.6" y="48.2" z="99999")"))),
-            "net.xml: netElement ne1/z: must have heights from -1000 to 10000 m (got 99999)");
-  EXPECT_EQ(Fault(Track() + Track()), "net.xml: netElement ne1: must be there once (got twice)");
+            "net.xml: line 3, netElement ne1: must have two different points or more (got 1)");
+  EXPECT_EQ(
+      Fault(Net("ne1", Point("0", R"(x="15.6" y="48.2" z="99999")"))),
+      "net.xml: line 3, netElement ne1/z: must have heights from -1000 to 10000 m (got 99999)");
+  EXPECT_EQ(Fault(Track() + Track()),
+            "net.xml: line 3, netElement ne1: must be there once (got twice)");
   EXPECT_EQ(Fault(Track() + Speed("-5", "")),
-            "net.xml: speedSection s1/maxSpeed: must be > 0 (got -5)");
-  EXPECT_EQ(Fault(Track() + Speed("80", R"(intrinsicCoordBegin="0.7" intrinsicCoordEnd="0.2")")),
-            "net.xml: speedSection s1: must have intrinsicCoordBegin < intrinsicCoordEnd, both "
-            "from 0 to 1 (got 0.7, 0.2)");
-  EXPECT_EQ(Fault(Track() + Cant("90", "250", "")),
-            "net.xml: superelevationCurve c1: must have cants from 0 to 300 mm (got 90, 340)");
+            "net.xml: line 3, speedSection s1/maxSpeed: must be > 0 (got -5)");
+  EXPECT_EQ(
+      Fault(Track() + Speed("80", R"(intrinsicCoordBegin="0.7" intrinsicCoordEnd="0.2")")),
+      "net.xml: line 3, speedSection s1: must have intrinsicCoordBegin < intrinsicCoordEnd, both "
+      "from 0 to 1 (got 0.7, 0.2)");
+  EXPECT_EQ(
+      Fault(Track() + Cant("90", "250", "")),
+      "net.xml: line 3, superelevationCurve c1: must have cants from 0 to 300 mm (got 90, 340)");
   EXPECT_EQ(Fault(Track() + Cant("", "0", "")),
-            "net.xml: superelevationCurve c1/superelevation: must be a number (got none)");
+            "net.xml: line 3, superelevationCurve c1/superelevation: must be a number (got none)");
   const std::string cut = FaultOf(R"(<?xml version="1.0"?><railML version="3.2"><common>)");
   EXPECT_THAT(cut, ::testing::HasSubstr("net.xml: must be XML to its end ("));
 }
