@@ -113,11 +113,25 @@ data TableData(const Table& table, bool is_on_paper) {
       {"grids", ListOf(TableBlocks(table), grid_of)}};
 }
 
+// The class of a figure that is too long to be as large as others: so many digits fit into a card.
+std::string FigureSize(const CellText& text) {
+  constexpr double kMostLarge = 8.0;
+  constexpr double kMostUsual = 12.0;
+  if (!text.is_number) return " words";
+  double num_digits = 0.0;
+  for (const char letter : text.value) {
+    const bool is_narrow = letter == ',' || letter == '.';
+    // NumberHtml() puts "×10" for "e".
+    num_digits += is_narrow ? 0.5 : letter == 'e' ? 3.0 : 1.0;
+  }
+  if (num_digits <= kMostLarge) return " number";
+  return num_digits <= kMostUsual ? " number long" : " number longest";
+}
+
 data HeadlineData(const Headline& headline) {
-  constexpr std::size_t kMostLargeLetters = 9;  // What a card has room for.
   const CellText text = TextOf(headline.value);
   return object{{"title", headline.title},
-                {"is_large", text.is_number && text.value.size() <= kMostLargeLetters},
+                {"figure_size", FigureSize(text)},
                 {"unit", IfAny(text.is_absent ? "" : headline.unit)},
                 {"is_number", text.is_number},
                 {"is_absent", text.is_absent},

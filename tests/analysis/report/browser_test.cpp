@@ -1,9 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "analysis/extras/dossier/dossier_report.h"
+#include "analysis/report/formats.h"
 #include "analysis/report/output.h"
 #include "tests/analysis/report/browser.h"
 #include "tests/analysis/report/made_report.h"
@@ -88,6 +90,40 @@ TEST_F(ReportInBrowser, UnfoldsTablesOnPaper) {
 TEST_F(ReportInBrowser, FitsOnTenPagesOfPaper) {
   if (!IsInstalled("pdftotext")) GTEST_SKIP() << "pdftotext is not installed";
   ExpectFitsOnPaper(pdf(), 10, 12.0);
+}
+
+// Figures of all lengths that a report writes, in cards as narrow as they become.
+TEST_F(ReportInBrowser, KeepsEveryFigureOfACardOnOneLine) {
+  Report report{.title = "Figures"};
+  for (const double value : {8.0, 98.76, -999.9, 1234567.0, -123.4567, 0.0003456, -123456789.0}) {
+    for (const double power : {1.0, 1e-9, 1e9}) {
+      const double figure = value * power;
+      const double half_width = 1e-6 * std::abs(figure);
+      report.headlines.push_back({"Without an interval", "points", figure});
+      report.headlines.push_back({"With a narrow one", "m",
+                                  Estimate{figure, figure - half_width, figure + half_width, 99}});
+    }
+  }
+  const TemporaryDirectory folder;
+  const auto file = folder.path() / "cards.html";
+  const std::string page = ReportPage(report, {});
+  WriteFileWhole(file, page);
+  constexpr const char* kLines = R"(<pre id="probe"></pre><script>
+const lines = [...document.querySelectorAll(".figure")].filter(e => {
+  const card = e.closest(".card").getBoundingClientRect(), own = e.getBoundingClientRect();
+  const digits = document.createRange();
+  digits.selectNodeContents(e);
+  const height = parseFloat(getComputedStyle(e).lineHeight);
+  return own.right > card.right - 8 || digits.getBoundingClientRect().height > 1.6 * height;
+}).map(e => e.textContent);
+document.getElementById("probe").textContent = "PROBE" + JSON.stringify({lines: lines}) + "PROBE";
+</script></body>)";
+  const auto copy = folder.path() / "probe.html";
+  WriteFileWhole(copy, WithScript(file, kLines));
+  for (const char* const width : {"1300", "1000", "700", "500"}) {
+    const std::string window = "--window-size=" + std::string(width) + ",1000";
+    EXPECT_EQ(ProbeOf(window, copy)["lines"], PlainJson::array()) << width;
+  }
 }
 
 // As the dossier is.
