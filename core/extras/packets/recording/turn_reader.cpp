@@ -95,6 +95,8 @@ void TurnReader::Decode(std::deque<SensorTurn>* turns, std::deque<OrderedPacket>
     MoveTurns(completed, *turns);
     if (const auto* const spinning = std::get_if<SpinningDecoder>(&sensor_.decoder)) {
       empty_blocks_.Count(packet->number, spinning->NumEmptyBlocks(packet->bytes));
+      incomplete_.Count(packet->number, spinning->num_incomplete() - incomplete_.number,
+                        "the rest of its firing cycle is missing");
     }
     if (decoded != nullptr) decoded->push_back(std::move(*packet));
   }
@@ -131,6 +133,7 @@ std::vector<Remark> TurnReader::remarks() const {
   add(RemarkKind::kPacketsReordered, order_.reordered());
   add(RemarkKind::kPacketsDamaged, damaged_);
   add(RemarkKind::kPacketsRefused, refused_);
+  add(RemarkKind::kPacketsRefused, incomplete_);
   add(RemarkKind::kBlocksEmpty, empty_blocks_);
   add(RemarkKind::kOtherSenders, others_);
   add(RemarkKind::kDatagramsUnknown, unknown_);

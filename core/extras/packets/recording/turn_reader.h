@@ -57,7 +57,7 @@ class TurnReader {
   PacketOrder order_;
   std::uint64_t num_datagrams_{};
   std::size_t num_taken_{};
-  PacketTally damaged_, refused_, empty_blocks_, unknown_, others_;
+  PacketTally damaged_, refused_, incomplete_, empty_blocks_, unknown_, others_;
 };
 
 /// Reads all datagrams of a place, and returns a reader of each of its sensors, which has counted

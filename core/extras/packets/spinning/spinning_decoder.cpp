@@ -138,7 +138,11 @@ void SpinningDecoder::Take(std::span<const char> payload,
   const std::int64_t loop_ns = model_.loop_ns;
   const bool follows = num_loops_ > 0 && loop == num_loops_ &&
                        2 * std::abs(time_ns - cycle_[loop - 1].time_ns - loop_ns) < loop_ns;
-  if (!follows) num_loops_ = 0;
+  if (!follows) {
+    for (; num_loops_ > 0; --num_loops_) LeaveOut(cycle_[num_loops_ - 1].packet);
+  }
+  // A recording may begin within a cycle.
+  if (loop != num_loops_ && num_packets_ > 1) LeaveOut(num_packets_ - 1);
   if (loop != num_loops_) return;
   const std::size_t in_group = BlocksInGroup(model_, payload);
   const std::size_t place = model_.BlockPlace(block);
@@ -162,6 +166,12 @@ void SpinningDecoder::Take(std::span<const char> payload,
   if (num_loops_ < cycle_.size()) return;
   AddCycle(turns);
   num_loops_ = 0;
+}
+
+void SpinningDecoder::LeaveOut(std::uint32_t packet) {
+  if (last_incomplete_ == packet) return;
+  last_incomplete_ = packet;
+  ++num_incomplete_;
 }
 
 SensorTurn SpinningDecoder::TakeUnfinished() {

@@ -39,6 +39,8 @@ class SpinningDecoder {
   /// Blocks of zeros, which are left out.
   /// @pre As above.
   [[nodiscard]] std::size_t NumEmptyBlocks(std::span<const char> payload) const;
+  /// Number of the packets so far that have a loop of a cycle that lacks another one.
+  [[nodiscard]] std::size_t num_incomplete() const { return num_incomplete_; }
 
   /// Returns the turn that no packet has completed yet, and starts a new one.
   [[nodiscard]] SensorTurn TakeUnfinished();
@@ -101,6 +103,8 @@ class SpinningDecoder {
             std::int64_t time_ns,
             double speed_deg_per_us,
             std::vector<SensorTurn>& turns);
+  /// Counts a packet one of whose loops is left out.
+  void LeaveOut(std::uint32_t packet);
   /// Whether a group is of another turn than that so far.
   [[nodiscard]] bool BeginsTurn(const Group& first);
   void AddCycle(std::vector<SensorTurn>& turns);
@@ -110,9 +114,11 @@ class SpinningDecoder {
   SpinningModel model_;
   std::vector<std::vector<Channel>> loops_;
   std::uint32_t num_packets_{};
-  std::vector<Group> cycle_;                    ///< One for each loop.
-  std::size_t num_loops_{};                     ///< Loops that an incomplete cycle has.
-  std::optional<std::int64_t> last_packet_us_;  ///< Continues counting across hours.
+  std::vector<Group> cycle_;  ///< One for each loop.
+  std::size_t num_loops_{};   ///< Loops that an incomplete cycle has.
+  std::size_t num_incomplete_{};
+  std::optional<std::uint32_t> last_incomplete_;  ///< The last one of these packets.
+  std::optional<std::int64_t> last_packet_us_;    ///< Continues counting across hours.
   std::optional<std::uint16_t> last_azimuth_;
   std::size_t field_{};                ///< The mirror's field in the last group.
   std::optional<StatedGroup> stated_;  ///< The first one of the turn.

@@ -247,6 +247,36 @@ TEST(Qt128Decoder, LeavesOutACycleThatLacksALoop) {
   EXPECT_EQ(TurnOf({LoopPacket(1, 80, 1000), LoopPacket(2, 200, 1333)}).num_columns(), 0U);
 }
 
+// Cycles of a packet for each loop, of which some are missing.
+TEST(Qt128Decoder, CountsPacketsThatLackTheRestOfTheirCycle) {
+  constexpr std::size_t kNumPackets = 40;
+  for (const std::size_t each : {2U, 3U, 4U, 5U, 10U}) {
+    for (const bool keeps_few : {true, false}) {
+      const auto is_kept = [&](std::size_t packet) {
+        return (packet % each == 0) == keeps_few && packet < kNumPackets;
+      };
+      SpinningDecoder decoder(Qt128Model());
+      std::vector<SensorTurn> turns;
+      std::size_t num_alone = 0;
+      bool is_first = true;
+      for (std::size_t i = 0; i < kNumPackets; ++i) {
+        if (!is_kept(i)) continue;
+        auto packet = LoopPacket(1 + i % 2, static_cast<std::uint16_t>(80 + 40 * i),
+                                 static_cast<std::uint32_t>(1000 + 111 * i));
+        StoreChecksums(Qt128Model(), packet);
+        EXPECT_EQ(DecodePacket(decoder, packet, turns), std::nullopt);
+        const bool begins = i % 2 == 1 && is_first;
+        if (!is_kept(i ^ 1U) && !begins) ++num_alone;
+        is_first = false;
+      }
+      // What ends with the first loop may go on.
+      const bool is_ended = decoder.num_incomplete() == num_alone;
+      EXPECT_TRUE(is_ended || decoder.num_incomplete() + 1 == num_alone)
+          << each << keeps_few << ": " << decoder.num_incomplete() << " of " << num_alone;
+    }
+  }
+}
+
 TEST(Qt128Decoder, TakesTheBlocksOfASinglePacketForBothLoops) {
   std::vector<char> packet = PacketOf(Qt128Model(), 64, kMadeStrongest);
   packet[Qt128Model().loop_place] = 1;

@@ -274,6 +274,29 @@ TEST(PacketOrder, CountsLossesThatAreRegularAndThoseThatAreNot) {
   }
 }
 
+// A few packets do not tell any window: what is missing between them is lost.
+TEST(PacketOrder, CountsLossesBetweenAFewPackets) {
+  for (const auto& [format, sensor] : {std::pair("vlp16", "vlp16"),
+                                       {"vlp16-dual", "vlp16"},
+                                       {"hdl32e", "hdl32e"},
+                                       {"vlp32c", "vlp32c"},
+                                       {"pandar64", "pandar64"},
+                                       {"xt32", "xt32"}}) {
+    const auto packets = Turns(5, format, sensor);
+    for (const std::size_t num : {3U, 5U, 12U, 30U}) {
+      for (std::size_t i = 0; const IsKept& is_kept : Losses()) {
+        std::size_t num_kept = 0;
+        const IsKept is_one = [&](std::size_t packet) {
+          return packet >= 27 && num_kept < num && is_kept(packet) && ++num_kept > 0;
+        };
+        const auto [missing, lost] = MissingAndLost(format, packets, is_one);
+        EXPECT_EQ(lost, missing) << sensor << ", " << num << " packets, " << i;
+        ++i;
+      }
+    }
+  }
+}
+
 // Windows of real sensors begin and end within packets. How many packets are missing is only known
 // where one of those is there.
 TEST(PacketOrder, CountsLossesBesideAWindowOfTheSensor) {
