@@ -4,7 +4,7 @@
     scripts/dev/measure_detection.py BUILD FOLDER [--check] [NAME...]
 
 Each is a study of 64 approaches with the rung footprint, in the situation's own weather; the brake scenarios in clear
-air, heavy rain and thick fog. What stands in the way is moved by up to 2.5 m along the track, so that scan lines fall
+air, heavy rain and thick fog. Where fewer than 60 of them come to an object, the page says so instead of a distance. What stands in the way is moved by up to 2.5 m along the track, so that scan lines fall
 elsewhere on it each time. FOLDER keeps the studies: the same command continues after an interruption. --check fails
 where a study's figures differ from detection_table.csv; without it, rows of the named studies are replaced there.
 No figure is a time, so that the machine may be busy. All take some hours on two cores.
@@ -31,6 +31,7 @@ SHIFT_M = (-2.5, 2.5)
 OWN_SHIFTS_M = {"foul_wagon": (-5, -2.5)}
 KEYS = ("study", "sensor", "object", "approaches", "detected", "answer", "most_needed_m", "least_detected_at_m",
         "d90_95_m", "curve_d90_m", "curve_d90_95_m")
+TOO_FEW = "too few approaches"
 NOTHING_IN_WAY = "no approach comes to an object in the way"
 BEGIN, END = "<!-- figures: measure_detection.py -->", "<!-- end of the figures -->"
 
@@ -126,6 +127,8 @@ def cell(row):
     """What the page says of an object on a sensor."""
     if row is None:
         return ""
+    if row["answer"].startswith(TOO_FEW):
+        return TOO_FEW
     text = f"{float(row['d90_95_m']):.0f}" if row["d90_95_m"] else "none"
     return f"**{text}**" if row["answer"] == "yes" else text + (" (no)" if row["answer"] == "no" else "")
 

@@ -23,6 +23,13 @@ class DetectionTable(unittest.TestCase):
             is_in_time = bool(row["d90_95_m"]) and float(row["d90_95_m"]) >= float(row["most_needed_m"])
             self.assertEqual(row["answer"] == "yes", is_in_time, row)
 
+    def test_fewer_approaches_than_needed_are_no_object_that_was_never_detected(self):
+        row = {"study": "brake_person_clear", "sensor": "vir2rail", "object": "person", "approaches": "3",
+               "detected": "3", "answer": "too few approaches: 60 are needed", "most_needed_m": "77.2",
+               "least_detected_at_m": "100.5", "d90_95_m": "", "curve_d90_m": "", "curve_d90_95_m": ""}
+        self.assertIn("| `brake_person_clear` | person | 77 | too few approaches |  |  |  |",
+                      measure_detection.page([row]))
+
 
 if __name__ == "__main__":
     unittest.main()
