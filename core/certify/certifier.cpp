@@ -138,6 +138,12 @@ class CellDraws {
     cell_ += 1.0 + std::floor(std::log(u) / log_not_);
     return {cell_, static_cast<double>(words[1]) * 0x1p-32};
   }
+  /// Passes over what is before a cell, at no cost if every cell is drawn.
+  void SkipTo(std::uint32_t cell) {
+    if (!std::isinf(log_not_)) return;
+    num_ = cell;
+    cell_ = static_cast<double>(cell) - 1.0;
+  }
 
  private:
   std::uint64_t seed_;
@@ -146,6 +152,39 @@ class CellDraws {
   std::uint32_t num_ = 0;
   double cell_ = -1.0;
 };
+
+// Draws firings of a frame, or of a region of it, with the probabilities of their strata.
+// @param kinds Of all firings, or of those of the region.
+void DrawFirings(std::uint64_t seed,
+                 const Frame& frame,
+                 const CertifiedRegion* region,
+                 const std::vector<std::uint8_t>& kinds,
+                 FrameCertificate& certificate) {
+  double most = 0.0;
+  for (const StratumCount& stratum : certificate.strata) most = std::max(most, stratum.probability);
+  const double num_cells = static_cast<double>(frame.rows) * static_cast<double>(frame.columns);
+  CellDraws draws(seed, frame.index, most);
+  for (auto draw = draws.Next(); draw.cell < num_cells; draw = draws.Next()) {
+    const auto cell = static_cast<std::uint32_t>(draw.cell);
+    std::size_t place = cell;  // Among the kinds.
+    if (region != nullptr) {
+      const auto next = std::ranges::lower_bound(region->cells, cell);
+      if (next == region->cells.end()) return;
+      place = static_cast<std::size_t>(next - region->cells.begin());
+      if (*next > cell) {
+        draws.SkipTo(*next);
+        continue;
+      }
+    }
+    const Stratum stratum = StratumOf(frame.label[std::size_t{cell} * frame.returns], kinds[place]);
+    const auto at =
+        std::ranges::find(certificate.strata, stratum, [](const Stratum& each) { return each; });
+    if (draw.number * most >= at->probability) continue;
+    DrawnFiring& drawn = certificate.drawn.emplace_back();
+    drawn.cell = cell;
+    drawn.stratum = static_cast<std::uint32_t>(at - certificate.strata.begin());
+  }
+}
 
 }  // namespace
 
@@ -232,12 +271,12 @@ FrameCertificate Certifier::Certify(Simulator& simulator,
 FrameCertificate Certifier::Certify(const Frame& frame,
                                     const CertifiedRegion* region,
                                     const ScanFirings& scan) const {
-  const std::vector<std::uint8_t> kinds = StratumKindsOf(frame, EdgesOf(frame));
+  const std::vector<std::uint8_t> kinds = region == nullptr ? StratumKindsOf(frame, EdgesOf(frame))
+                                                            : StratumKindsAt(frame, region->cells);
   StrataCounter counter;
-  const std::size_t num_cells = region == nullptr ? kinds.size() : region->cells.size();
-  for (std::size_t i = 0; i < num_cells; ++i) {
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
     const std::size_t cell = region == nullptr ? i : region->cells[i];
-    counter.Count(frame.label[cell * frame.returns], kinds[cell]);
+    counter.Count(frame.label[cell * frame.returns], kinds[i]);
   }
   FrameCertificate certificate{counter.Strata(), {}};
   double per_scatter = probability_per_scatter_;
@@ -248,25 +287,12 @@ FrameCertificate Certifier::Certify(const Frame& frame,
     }
     if (scatters > 0.0) per_scatter = *region->num_wanted / scatters;
   }
-  double most = 0.0;
   for (StratumCount& stratum : certificate.strata) {
     stratum.probability = std::min(ScatterOf(stratum) * per_scatter, 1.0);
-    most = std::max(most, stratum.probability);
   }
+  DrawFirings(seed_, frame, region, kinds, certificate);
   std::vector<std::uint32_t> cells;
-  std::vector<std::uint32_t> strata;
-  CellDraws draws(seed_, frame.index, most);
-  for (auto draw = draws.Next(); draw.cell < static_cast<double>(kinds.size());
-       draw = draws.Next()) {
-    const auto cell = static_cast<std::uint32_t>(draw.cell);
-    if (region != nullptr && !std::ranges::binary_search(region->cells, cell)) continue;
-    const Stratum stratum = StratumOf(frame.label[std::size_t{cell} * frame.returns], kinds[cell]);
-    const auto at =
-        std::ranges::find(certificate.strata, stratum, [](const Stratum& each) { return each; });
-    if (draw.number * most >= at->probability) continue;
-    cells.push_back(cell);
-    strata.push_back(static_cast<std::uint32_t>(at - certificate.strata.begin()));
-  }
+  for (const DrawnFiring& drawn : certificate.drawn) cells.push_back(drawn.cell);
   if (cells.empty()) return certificate;
   std::vector<Frame> frames(variants_.size());
   scan(cells, frames);
@@ -279,9 +305,7 @@ FrameCertificate Certifier::Certify(const Frame& frame,
     return echoes;
   };
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    DrawnFiring& drawn = certificate.drawn.emplace_back();
-    drawn.cell = cells[i];
-    drawn.stratum = strata[i];
+    DrawnFiring& drawn = certificate.drawn[i];
     drawn.echoes = compare(frames[1], i);
     for (std::size_t k = 2; k < frames.size(); ++k) {
       drawn.rungs.push_back(CountsOf(compare(frames[k], i)));

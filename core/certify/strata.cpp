@@ -52,6 +52,12 @@ void MarkEdges(const Frame& frame, Stride stride, std::vector<std::uint8_t>& edg
   }
 }
 
+// @param edge 1 at one.
+std::uint8_t KindOf(float range_m, std::uint32_t edge, Outcome outcome) {
+  return static_cast<std::uint8_t>(4 * StratumBinOf(range_m) + 2 * edge +
+                                   std::uint32_t{HasPoint(outcome)});
+}
+
 /// @param stride As above.
 template <typename Stride>
 void AddKinds(const Frame& frame, Stride stride, std::vector<std::uint8_t>& kinds) {
@@ -60,10 +66,28 @@ void AddKinds(const Frame& frame, Stride stride, std::vector<std::uint8_t>& kind
   const std::size_t num_cells = kinds.size();
   std::uint8_t* const __restrict kind = kinds.data();
   for (std::size_t cell = 0; cell < num_cells; ++cell) {
-    kind[cell] = static_cast<std::uint8_t>(4 * StratumBinOf(range_m[cell * stride]) +
-                                           2 * std::uint32_t{kind[cell]} +
-                                           std::uint32_t{HasPoint(outcome[cell * stride])});
+    kind[cell] = KindOf(range_m[cell * stride], kind[cell], outcome[cell * stride]);
   }
+}
+
+// As MarkEdges() does, of one cell.
+bool IsEdge(const Frame& frame, std::size_t cell) {
+  const std::size_t columns = frame.columns;
+  const std::size_t a = cell * frame.returns;
+  const auto is_other_at = [&](std::size_t neighbour) {
+    const std::size_t b = neighbour * frame.returns;
+    return frame.label[a] != frame.label[b] || frame.instance[a] != frame.instance[b];
+  };
+  const auto is_beyond_step = [&](std::size_t neighbour) {
+    const std::size_t b = neighbour * frame.returns;
+    return is_other_at(neighbour) ||
+           std::abs(frame.true_range_m[a] - frame.true_range_m[b]) > kEdgeStep_m;
+  };
+  const std::size_t column = cell % columns;
+  return frame.mixed_share[a] >= kEdgeMixedShare || (column > 0 && is_beyond_step(cell - 1)) ||
+         (column + 1 < columns && is_beyond_step(cell + 1)) ||
+         (cell >= columns && is_other_at(cell - columns)) ||
+         (cell + columns < frame.rows * columns && is_other_at(cell + columns));
 }
 
 }  // namespace
@@ -85,6 +109,17 @@ std::vector<std::uint8_t> StratumKindsOf(const Frame& frame,
     AddKinds(frame, std::integral_constant<std::size_t, 1>(), kinds);
   } else {
     AddKinds(frame, frame.returns, kinds);
+  }
+  return kinds;
+}
+
+std::vector<std::uint8_t> StratumKindsAt(const Frame& frame, std::span<const std::uint32_t> cells) {
+  std::vector<std::uint8_t> kinds;
+  kinds.reserve(cells.size());
+  for (const std::uint32_t cell : cells) {
+    const std::size_t slot = cell * frame.returns;
+    kinds.push_back(
+        KindOf(frame.true_range_m[slot], IsEdge(frame, cell) ? 1U : 0U, frame.outcome[slot]));
   }
   return kinds;
 }

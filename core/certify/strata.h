@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <span>
 #include <vector>
 
 #include "railcast/frame.h"
@@ -41,6 +42,9 @@ inline constexpr float kStratumEnds_m[] = {25.0F, 50.0F, 100.0F, 200.0F};
 /// @param edges As of EdgesOf().
 [[nodiscard]] std::vector<std::uint8_t> StratumKindsOf(const Frame& frame,
                                                        const std::vector<std::uint8_t>& edges);
+/// The same of some firings alone, by their cells; takes no longer for a larger frame.
+[[nodiscard]] std::vector<std::uint8_t> StratumKindsAt(const Frame& frame,
+                                                       std::span<const std::uint32_t> cells);
 inline constexpr std::uint32_t kNumStratumKinds = 4 * (std::size(kStratumEnds_m) + 1);
 
 [[nodiscard]] inline Stratum StratumOf(std::uint32_t label, std::uint32_t kind) {

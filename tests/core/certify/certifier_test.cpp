@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -149,6 +150,32 @@ TEST(RungsBeside, AreTheNextCheaperAndTheNextDearerOne) {
   EXPECT_THAT(names_at(Fidelity::kPlausibility), ElementsAre("surface"));
   EXPECT_THAT(names_at(Fidelity::kSurface), ElementsAre("plausibility", "footprint"));
   EXPECT_THAT(names_at(Fidelity::kFootprint), ElementsAre("surface"));
+}
+
+TEST(Certifier, DrawsTheFiringsOfARegionThatItDrawsOfAll) {
+  const ScenarioSpec scenario = LineAt(Fidelity::kSurface);
+  const auto simulator = MakeSimulator(scenario, 1);
+  // Those of trees and grass have probability 1, others less.
+  const Certifier certifier(scenario, 20.0, *simulator);
+  const auto begun = simulator->Begin(3);
+  Frame frame;
+  simulator->Scan(*begun, frame);
+  CertifiedRegion region;
+  for (std::uint32_t cell = 0; cell < frame.rows * frame.columns; cell += 1 + cell % 11) {
+    region.cells.push_back(cell);
+  }
+  const FrameCertificate all = certifier.Certify(*simulator, *begun, frame);
+  const FrameCertificate some = certifier.Certify(*simulator, *begun, frame, &region);
+  const auto [least, most] = std::ranges::minmax(some.strata, {}, &StratumCount::probability);
+  ASSERT_LT(least.probability, most.probability);
+  ASSERT_EQ(most.probability, 1.0);
+  std::vector<std::uint32_t> expected, drawn;
+  for (const DrawnFiring& firing : all.drawn) {
+    if (std::ranges::binary_search(region.cells, firing.cell)) expected.push_back(firing.cell);
+  }
+  for (const DrawnFiring& firing : some.drawn) drawn.push_back(firing.cell);
+  EXPECT_LT(drawn.size(), region.cells.size());
+  EXPECT_EQ(drawn, expected);
 }
 
 // As fidelity `auto` chooses it for a tolerance of persons.

@@ -6,12 +6,14 @@
 #include <limits>
 #include <vector>
 
+#include "core/base/random.h"
 #include "tests/support/echo_frame.h"
 
 namespace railcast {
 namespace {
 
 using testing::ElementsAre;
+using testing::IsSupersetOf;
 
 TEST(Strata, AreByRangeUpTo25And50And100And200MetresAndBeyond) {
   EXPECT_EQ(StratumBinOf(0.0F), 0U);
@@ -58,6 +60,26 @@ TEST(Strata, HaveNoEdgeBetweenRowsOfLevelGround) {
   EXPECT_THAT(EdgesOf(frame), ElementsAre(0, 0, 0, 0));
   frame.label[3 * frame.returns] = 9;
   EXPECT_THAT(EdgesOf(frame), ElementsAre(0, 1, 1, 1));
+}
+
+TEST(Strata, AreOfSomeFiringsAsOfAll) {
+  constexpr std::uint32_t kRows = 7, kColumns = 13;
+  std::vector<std::vector<MadeEcho>> firings(kRows * kColumns);
+  for (std::uint32_t i = 0; i < firings.size(); ++i) {
+    const auto words = RandomWords(1, RandomUse::kCertificate, 0, i);
+    const auto one_of_eight = [&](std::size_t k) { return words[k] % 8 == 0 ? 1U : 0U; };
+    if (one_of_eight(0) != 0) continue;
+    firings[i] = {{10.0F + static_cast<float>(one_of_eight(1)), 3 + one_of_eight(2)}};
+  }
+  Frame frame = MakeEchoFrame(firings);
+  frame.rows = kRows;
+  frame.columns = kColumns;
+  const std::vector<std::uint8_t> all = StratumKindsOf(frame, EdgesOf(frame));
+  EXPECT_THAT(all, IsSupersetOf({1, 2, 3}));
+  const std::vector<std::uint32_t> some = {0, 5, 12, 13, 40, 41, 77, 78, 90};
+  std::vector<std::uint8_t> of_some;
+  for (const std::uint32_t cell : some) of_some.push_back(all[cell]);
+  EXPECT_EQ(StratumKindsAt(frame, some), of_some);
 }
 
 }  // namespace
