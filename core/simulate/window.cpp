@@ -144,9 +144,13 @@ void WindowSource::AddObjects(int home_chunk,
                               Window& window) const {
   const World& world = *store_->world();
   const Vector3 home_world = world.WorldFromChunk(home_chunk).translation();
+  std::unordered_map<const Model*, Eigen::AlignedBox3d> boxes;  // Many objects share a model.
   for (const std::size_t i : standing) {
     const Transform world_from_object = world.WorldFromObject(i, 0);
-    const Eigen::AlignedBox3d box = world.objects()[i].model->Bounds();
+    const Model* const model = world.objects()[i].model.get();
+    const auto [known, is_new] = boxes.try_emplace(model);
+    if (is_new) known->second = model->Bounds();
+    const Eigen::AlignedBox3d& box = known->second;
     if (box.isEmpty()) continue;
     const double distance_m = (world_from_object * box.center() - home_world).norm();
     if (distance_m > range_max_m_ + kHomeRadius_m + 0.5 * box.diagonal().norm()) continue;

@@ -129,10 +129,13 @@ ObjectSurvey::ObjectSurvey(const World& world,
                            const OutputSpec& output)
     : world_(world), range_max_m_(range_max_m), output_(output), contacts_(world) {
   const std::vector<SceneObject>& objects = world.objects();
+  std::unordered_map<const Model*, Eigen::AlignedBox3d> boxes;  // Many objects share a model.
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Label* label = labels.Find(objects[i].label);
     Check(label != nullptr, "an object's label is in the label table");
-    const Eigen::AlignedBox3d bounds_m = objects[i].model->Bounds();
+    const auto [box, is_new] = boxes.try_emplace(objects[i].model.get());
+    if (is_new) box->second = objects[i].model->Bounds();
+    const Eigen::AlignedBox3d& bounds_m = box->second;
     Subject subject{label->name, bounds_m.center(), bounds_m.sizes(), {}};
     if (!objects[i].moves) {
       subject.world_from_box = world.WorldFromObject(i, 0) * Eigen::Translation3d(subject.center_m);
