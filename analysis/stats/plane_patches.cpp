@@ -195,6 +195,7 @@ std::optional<FlatPiece> MakePiece(const Points& points, double step_m) {
   patch.incidence_rad = std::acos(std::min(1.0, cosine));
   if (patch.incidence_rad >= kMostIncidence_rad) return std::nullopt;
   patch.range_m = plane.middle.norm();
+  patch.step_m = step_m;
   patch.num_points = kept.size();
   patch.num_outliers = points.size() - kept.size();
   Moments intensities;

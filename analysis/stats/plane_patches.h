@@ -27,6 +27,7 @@ struct PclPlane {
 struct PlanePatch {
   double range_m{};          ///< Mean range of its points.
   double incidence_rad{};    ///< Incidence at its middle.
+  double step_m{};           ///< RangeStep_m() of its frame.
   double intensity{};        ///< Mean of the points that have one; NaN if none has.
   std::size_t num_points{};  ///< Without outliers.
   std::size_t num_outliers{};

@@ -7,7 +7,6 @@
 #include "analysis/report/words.h"
 #include "analysis/stats/bins.h"
 #include "core/base/units.h"
-#include "core/io/recording/range_step.h"
 
 namespace railcast {
 namespace {
@@ -90,7 +89,6 @@ Estimate Noise::Planes::RobustPlaneSigma_m() const {
 
 void Noise::Add(const RecordedFrame& recorded, const std::vector<PlanePatch>& patches) {
   planes_.resize(RangeBins().size());
-  const double step_m = patches.empty() ? 0.0 : RangeStep_m(recorded);
   for (const PlanePatch& patch : patches) {
     const auto bin = RangeBins().Find(patch.range_m);
     if (!bin) continue;
@@ -102,7 +100,7 @@ void Noise::Add(const RecordedFrame& recorded, const std::vector<PlanePatch>& pa
     planes.plane_squares_m2 += patch.plane_squares_m2;
     planes.num_points += patch.num_points;
     planes.num_outliers += patch.num_outliers;
-    if (step_m > 0.0) planes.step_m.Add(step_m);
+    if (patch.step_m > 0.0) planes.step_m.Add(patch.step_m);
     planes.range_sigmas_m.Add(correction * std::sqrt(patch.range_squares_m2 / degrees));
     planes.plane_sigmas_m.Add(correction * std::sqrt(patch.plane_squares_m2 / degrees));
     planes.pcl_sigmas_m.Add(patch.by_pcl.sigma_m);
