@@ -119,7 +119,7 @@ Estimate LogHistogram::RobustScale() const {
   const double half = 0.5 * static_cast<double>(num_);
   std::pair<double, double> before{};  // A distance and the number of samples that are nearer.
   double nearer = 0.0;
-  for (auto bin = distances.begin(); bin != distances.end();) {
+  for (auto bin = distances.begin();;) {
     const double distance = bin->first;
     double count = 0.0;
     for (; bin != distances.end() && bin->first == distance; ++bin) {
@@ -135,7 +135,6 @@ Estimate LogHistogram::RobustScale() const {
     before = {distance, up_to};
     nearer += count;
   }
-  return NotEnough(num_);
 }
 
 Estimate LogHistogram::RobustScale(double step, RoundedValues rounded) const {
