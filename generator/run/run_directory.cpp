@@ -162,16 +162,14 @@ void RunDirectory::CheckNames(bool is_run) const {
 }
 
 void RunDirectory::CountFrames() {
-  if (trace_) found_trace_ = trace_->Find();
+  if (trace_) trace_->Find();
   counts_ = {};
   if (spec_.certify) certificates_.emplace(*spec_.certify);
   std::optional<FrameRecord> record;
   const auto read = [&](std::uint32_t i, std::string_view line) -> std::optional<LedgerItem> {
     record = ParseFrameLine(line);
     if (!record || record->frame != spec_.FrameAt(i)) return std::nullopt;
-    if (trace_ && (i >= found_trace_.size() || found_trace_[i] != record->clouds_hash)) {
-      return std::nullopt;
-    }
+    if (trace_ && trace_->NextHash() != record->clouds_hash) return std::nullopt;
     return LedgerItem{record->files, record->records_hash, NumLinesOf(spec_, *record)};
   };
   num_done_ = lines_.Count(most_done_, read, [&](std::string_view records) {

@@ -113,7 +113,6 @@ class RunDirectory {
   std::optional<PoseRecord> first_pose_;
   LineLedger lines_;                      ///< frames.jsonl is last.
   std::unique_ptr<SequenceTrace> trace_;  ///< Null = none.
-  std::vector<std::string> found_trace_;  ///< Hashes of its messages.
 };
 
 }  // namespace railcast

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -62,9 +63,11 @@ class SequenceTrace {
  public:
   virtual ~SequenceTrace() = default;
 
-  /// The hashes (ContentHash()) of the messages that the unfinished or finished file holds.
-  [[nodiscard]] virtual std::vector<std::string> Find() = 0;
-  /// Begins the file, or goes on with it after the first `num_messages` of what Find() found last.
+  /// Looks for the unfinished or finished file; NextHash() begins with its first message.
+  virtual void Find() = 0;
+  /// The hash (ContentHash()) of the file's next message; nothing if it has no more.
+  [[nodiscard]] virtual std::optional<std::string> NextHash() = 0;
+  /// Begins the file, or goes on with it after its first `num_messages`, which NextHash() found.
   /// @return How many it has: less where the end of the last one is missing.
   /// @throws InputError if the system refuses.
   virtual std::size_t Open(std::size_t num_messages) = 0;

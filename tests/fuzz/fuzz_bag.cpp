@@ -51,15 +51,17 @@ void ReadCloud(std::span<const std::byte> bytes) {
 }
 
 void ReadOsiTrace(const std::filesystem::path& path) {
-  const osi::TraceContent trace = osi::ReadTrace(path);
-  std::uint64_t end = 0;
-  for (const osi::TraceMessage& message : trace.messages) {
-    Check(message.end >= end + sizeof(std::uint32_t), "messages stand behind each other");
-    end = message.end;
+  osi::TraceReader trace(path);
+  while (trace.NextHash()) {
   }
-  Check(end <= std::filesystem::file_size(path), "messages lie within their file");
-  Check(!trace.fault.empty() || end == std::filesystem::file_size(path), "all of it is read");
-  if (!trace.fault.empty()) CheckFaultLines(trace.fault);
+  if (!trace.fault().empty()) return CheckFaultLines(trace.fault());
+  osi::SingleChannelReader reader(path);
+  std::uint64_t end = 0;
+  while (reader.Next()) {
+    Check(reader.position() >= end + sizeof(std::uint32_t), "messages stand behind each other");
+    end = reader.position();
+  }
+  Check(end == std::filesystem::file_size(path), "all of it is read");
 }
 
 void ReadInput(char kind, std::string_view text) {

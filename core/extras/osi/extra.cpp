@@ -1,6 +1,5 @@
 #include <cstddef>
 #include <filesystem>
-#include <vector>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -15,24 +14,27 @@ void VerifyTrace(const std::filesystem::path& trace,
                  const NextClouds& next_frame,
                  bool is_finished,
                  ErrorList& faults) {
-  const auto [messages, fault] = osi::ReadTrace(trace);
+  osi::TraceReader messages(trace);
   std::size_t num_frames = 0;
   for (; const auto frame = next_frame(); ++num_frames) {
-    if (num_frames >= messages.size()) {
+    const auto hash = messages.NextHash();
+    if (!hash) {
       faults.Add({frame->place, "must have its message in " + ShownPath(trace), "none"});
-    } else if (messages[num_frames].hash != frame->hash) {
+    } else if (*hash != frame->hash) {
       faults.Add({ShownPath(trace) + ": message " + NumberText(num_frames + 1),
                   "must have the hash " + ShownText(frame->hash) + ", as " + frame->place + " says",
-                  messages[num_frames].hash});
+                  *hash});
     }
   }
   if (!is_finished) return;
+  std::size_t num_messages = num_frames;
+  while (messages.NextHash()) ++num_messages;
   CheckHasItsEnd(trace, faults);
-  if (!fault.empty()) faults.AddLine(fault);
-  if (messages.size() > num_frames) {
+  if (!messages.fault().empty()) faults.AddLine(messages.fault());
+  if (num_messages > num_frames) {
     faults.Add({ShownPath(trace),
                 "must have a message for each of " + NumberText(num_frames) + " frames",
-                NumberText(messages.size())});
+                NumberText(num_messages)});
   }
 }
 

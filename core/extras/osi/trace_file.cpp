@@ -14,20 +14,8 @@ constexpr const char* kOsiVersion = "3.8.0";
 /// Protobuf reads and writes none that are larger.
 constexpr std::uint64_t kMaxMessage_bytes = 0x7fff'ffff;
 
-TraceMessage MessageIn(mcap::ByteSpan bytes, std::uint64_t end) {
-  return {ContentHash({reinterpret_cast<const char*>(bytes.data()), bytes.size()}), end};
-}
-
-// Adds the messages that `next` returns, until it returns none or throws.
-template <typename NextMessage>
-TraceContent ReadMessages(const NextMessage& next) {
-  TraceContent content;
-  try {
-    while (const auto message = next()) content.messages.push_back(*message);
-  } catch (const InputError& error) {
-    content.fault = error.what();
-  }
-  return content;
+std::string HashOf(mcap::ByteSpan bytes) {
+  return ContentHash({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace
@@ -70,21 +58,27 @@ std::optional<mcap::Bytes> SingleChannelReader::Next() {
   return message;
 }
 
-TraceContent ReadTrace(const std::filesystem::path& file) {
+TraceReader::TraceReader(const std::filesystem::path& file) {
   if (file.extension() == kSingleChannel) {
-    SingleChannelReader reader(file);
-    return ReadMessages([&]() -> std::optional<TraceMessage> {
-      const auto message = reader.Next();
-      if (!message) return std::nullopt;
-      return MessageIn(*message, reader.position());
-    });
+    single_channel_.emplace(file);
+  } else {
+    mcap_ = bag::OpenBag(file);
   }
-  const auto reader = bag::OpenBag(file);
-  return ReadMessages([&]() -> std::optional<TraceMessage> {
-    const auto message = reader->Next();
-    if (!message) return std::nullopt;
-    return MessageIn(message->data, 0);
-  });
+}
+
+std::optional<std::string> TraceReader::NextHash() {
+  if (!fault_.empty()) return std::nullopt;
+  try {
+    if (!single_channel_) {
+      const auto message = mcap_->Next();
+      return message ? std::optional(HashOf(message->data)) : std::nullopt;
+    }
+    const auto message = single_channel_->Next();
+    return message ? std::optional(HashOf(*message)) : std::nullopt;
+  } catch (const InputError& error) {
+    fault_ = error.what();
+    return std::nullopt;
+  }
 }
 
 }  // namespace railcast::osi

@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "core/extras/ros/bag/bag.h"
 #include "core/extras/ros/mcap/byte_file.h"
@@ -39,19 +39,22 @@ class SingleChannelReader {
   std::size_t num_read_{};
 };
 
-/// A message of a trace.
-struct TraceMessage {
-  std::string hash;     ///< ContentHash() of its bytes.
-  std::uint64_t end{};  ///< Where it ends in an .osi file.
-};
+/// Reads the hashes of the messages of an .osi or an MCAP file, also of an interrupted one, in the
+/// order of their times. Only one message is in memory.
+class TraceReader {
+ public:
+  /// @throws InputError "file: rule" if it cannot be opened.
+  explicit TraceReader(const std::filesystem::path& file);
 
-struct TraceContent {
-  std::vector<TraceMessage> messages;  ///< In the order of their times.
-  std::string fault;                   ///< Why there are no more; empty at the end of the trace.
-};
+  /// Returns the ContentHash() of the next message, or nothing if there are no more.
+  [[nodiscard]] std::optional<std::string> NextHash();
+  /// Why there are no more; empty at the end of the trace.
+  [[nodiscard]] const std::string& fault() const { return fault_; }
 
-/// Reads the messages of an .osi or an MCAP file, also of an interrupted one.
-/// @throws InputError "file: rule" if it cannot be opened.
-[[nodiscard]] TraceContent ReadTrace(const std::filesystem::path& file);
+ private:
+  std::optional<SingleChannelReader> single_channel_;
+  std::unique_ptr<bag::BagReader> mcap_;
+  std::string fault_;
+};
 
 }  // namespace railcast::osi

@@ -178,7 +178,10 @@ class OsiTrace final : public SequenceTrace {
   OsiTrace(fs::path file, std::string topic, SensorViewMaker sensor_view)
       : file_(std::move(file)), topic_(std::move(topic)), sensor_view_(std::move(sensor_view)) {}
 
-  [[nodiscard]] std::vector<std::string> Find() override;
+  void Find() override;
+  [[nodiscard]] std::optional<std::string> NextHash() override {
+    return found_ ? found_->NextHash() : std::nullopt;
+  }
   std::size_t Open(std::size_t num_messages) override;
   [[nodiscard]] std::string Encode(const MadeFrame& made) const override {
     return sensor_view_(made);
@@ -190,31 +193,32 @@ class OsiTrace final : public SequenceTrace {
   fs::path file_;
   std::string topic_;
   SensorViewMaker sensor_view_;
-  osi::TraceContent found_;
+  std::optional<osi::TraceReader> found_;
   std::optional<LineFile> single_channel_;
   std::unique_ptr<bag::BagWriter> mcap_;
   std::size_t channel_{};
 };
 
-std::vector<std::string> OsiTrace::Find() {
-  found_ = {};
+void OsiTrace::Find() {
+  found_.reset();
   try {
-    if (fs::exists(file_)) {
-      found_ = osi::ReadTrace(file_);
-    } else if (fs::exists(UnfinishedTrace(file_))) {
-      found_ = osi::ReadTrace(UnfinishedTrace(file_));
+    for (const fs::path& file : {file_, UnfinishedTrace(file_)}) {
+      if (!found_ && fs::exists(file)) found_.emplace(file);
     }
   } catch (const InputError&) {
     // What cannot be read counts as absent.
   }
-  std::vector<std::string> hashes;
-  for (const osi::TraceMessage& message : found_.messages) hashes.push_back(message.hash);
-  return hashes;
 }
 
 std::size_t OsiTrace::Open(std::size_t num_messages) {
+  found_.reset();
   if (file_.extension() == osi::kSingleChannel) {
-    const std::uint64_t end = num_messages == 0 ? 0 : found_.messages.at(num_messages - 1).end;
+    std::uint64_t end = 0;
+    if (num_messages > 0) {
+      osi::SingleChannelReader reader(file_);
+      for (std::size_t i = 0; i < num_messages; ++i) (void)reader.Next();
+      end = reader.position();
+    }
     single_channel_.emplace(file_, end);
     return num_messages;
   }

@@ -25,9 +25,10 @@ class TraceFile : public testing::Test {
   // What is wrong with a trace of these bytes behind a message of three.
   [[nodiscard]] std::string FaultOf(const std::string& bytes) const {
     WriteFileWhole(file_, LengthText(3) + "abc" + bytes);
-    const TraceContent content = ReadTrace(file_);
-    EXPECT_EQ(content.messages.size(), 1U);
-    return content.fault;
+    TraceReader trace(file_);
+    EXPECT_EQ(trace.NextHash(), ContentHash("abc"));
+    EXPECT_EQ(trace.NextHash(), std::nullopt);
+    return trace.fault();
   }
 
   const TemporaryDirectory folder_;
@@ -36,20 +37,19 @@ class TraceFile : public testing::Test {
 
 TEST_F(TraceFile, HasMessagesBehindTheirLengths) {
   WriteFileWhole(file_, LengthText(3) + "abc" + LengthText(0) + LengthText(2) + "de");
-  const TraceContent content = ReadTrace(file_);
-  ASSERT_EQ(content.messages.size(), 3U);
-  EXPECT_EQ(content.messages[0].hash, ContentHash("abc"));
-  EXPECT_EQ(content.messages[0].end, 7U);
-  EXPECT_EQ(content.messages[1].hash, ContentHash(""));
-  EXPECT_EQ(content.messages[2].hash, ContentHash("de"));
-  EXPECT_EQ(content.messages[2].end, 17U);
-  EXPECT_EQ(content.fault, "");
+  TraceReader trace(file_);
+  for (const char* const message : {"abc", "", "de"}) {
+    EXPECT_EQ(trace.NextHash(), ContentHash(message));
+  }
+  EXPECT_EQ(trace.NextHash(), std::nullopt);
+  EXPECT_EQ(trace.fault(), "");
 }
 
 TEST_F(TraceFile, OfNothingHasNoMessages) {
   WriteFileWhole(file_, "");
-  EXPECT_TRUE(ReadTrace(file_).messages.empty());
-  EXPECT_EQ(ReadTrace(file_).fault, "");
+  TraceReader trace(file_);
+  EXPECT_EQ(trace.NextHash(), std::nullopt);
+  EXPECT_EQ(trace.fault(), "");
 }
 
 TEST_F(TraceFile, EndsBeforeWhatIsNotWhole) {
