@@ -26,6 +26,7 @@
 #include "core/io/run/run_record.h"
 #include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
+#include "core/io/unfinished_file.h"
 #include "core/io/write_file.h"
 #include "generator/run/line_ledger.h"
 #include "railcast/io/cloud_files.h"
@@ -147,37 +148,51 @@ std::string CloudName(const SequenceSpec& spec, std::uint32_t frame) {
   return FrameFileNames(*spec.files.format, frame).front();
 }
 
+/// Writes the merged clouds and the lines about them, which are not kept: there may be millions.
 class MergedWriter {
  public:
   MergedWriter(const fs::path& directory, std::vector<MergedSensor> sensors)
       : folder_(directory / kMergedFolder),
         sensors_(std::move(sensors)),
-        frames_(MergedFramesOf(sensors_)) {}
+        first_(sensors_.front().plan) {}
 
   bool Write(const std::function<void(double)>& on_progress,
              const std::function<bool()>& is_stopped) {
-    lines_.resize(frames_.size());
-    std::atomic<bool> stops = false;
-    tbb::parallel_for(std::size_t{0}, frames_.size(), [&](std::size_t i) {
-      if (stops || is_stopped()) {
-        stops = true;
-        return;
+    constexpr std::uint32_t kAtOnce = 256;
+    fs::create_directories(folder_);
+    const UnfinishedFile poses(folder_ / kPosesFile, 0), merged(folder_ / kMergedFile, 0);
+    LineReader own_poses(first_.spec.directory / kPosesFile);
+    static_cast<void>(own_poses.Need());
+    poses.Append(std::as_bytes(std::span(kPosesHeader)));
+    const std::uint32_t num_frames = first_.spec.num_frames;
+    for (std::uint32_t begin = 0; begin < num_frames; begin += kAtOnce) {
+      std::vector<std::string> lines(std::min(kAtOnce, num_frames - begin));
+      std::atomic<bool> stops = false;
+      tbb::parallel_for(std::size_t{0}, lines.size(), [&](std::size_t i) {
+        if (stops || is_stopped()) {
+          stops = true;
+          return;
+        }
+        lines[i] = WriteCloud(begin + static_cast<std::uint32_t>(i));
+        const std::lock_guard lock(mutex_);
+        on_progress(static_cast<double>(++num_done_) / static_cast<double>(num_frames));
+      });
+      if (stops) return false;
+      for (const std::string& line : lines) merged.Append(std::as_bytes(std::span(line)));
+      for (std::size_t i = 0; i < lines.size(); ++i) {
+        const std::string line = Pose(begin + static_cast<std::uint32_t>(i), own_poses.Need());
+        poses.Append(std::as_bytes(std::span(line)));
       }
-      lines_[i] = WriteCloud(frames_[i]);
-      const std::lock_guard lock(mutex_);
-      on_progress(static_cast<double>(++num_done_) / static_cast<double>(frames_.size()));
-    });
-    if (stops) return false;
-    WriteFileWhole(folder_ / kPosesFile, Poses());
-    std::string all;
-    for (const std::string& line : lines_) all += line;
-    WriteFileWhole(folder_ / kMergedFile, all);
+    }
+    poses.Finish();
+    merged.Finish();
     return true;
   }
 
  private:
   // Returns the line about it.
-  std::string WriteCloud(const MergedFrame& frame) const {
+  std::string WriteCloud(std::uint32_t i) const {
+    const MergedFrame frame = MergedFrameOf(sensors_, i);
     MergedCloud cloud;
     MergedRecord line{.frame = frame.parts.front().frame, .stamp_ns = frame.stamp_ns, .file = {}};
     for (const MergedFrame::Part& part : frame.parts) {
@@ -188,9 +203,8 @@ class MergedWriter {
                  .later_ns = part.later_ns});
       line.parts.push_back({name, part.frame, part.later_ns});
     }
-    const SequenceSpec& first = sensors_.front().plan.spec;
-    const std::string name = CloudName(first, frame.parts.front().frame);
-    const std::string bytes = cloud.Pcd(first.files.format->name == kCompressed);
+    const std::string name = CloudName(first_.spec, frame.parts.front().frame);
+    const std::string bytes = cloud.Pcd(first_.spec.files.format->name == kCompressed);
     fs::create_directories((folder_ / name).parent_path());
     WriteFileWhole(folder_ / name, bytes);
     line.file = {name, ContentHash(bytes), bytes.size()};
@@ -198,25 +212,17 @@ class MergedWriter {
     return RecordText(line) + "\n";
   }
 
-  // The vehicle's poses by the nominal mount of the first sensor, whose poses are recorded.
-  [[nodiscard]] std::string Poses() const {
-    const SensorPlan& first = sensors_.front().plan;
-    const Transform sensor_from_vehicle = VehicleFromSensor(first.scenario.lidar.mount).inverse();
-    LineReader lines(first.spec.directory / kPosesFile);
-    static_cast<void>(lines.Need());
-    std::string text(kPosesHeader);
-    for (const MergedFrame& frame : frames_) {
-      const PlacedLine line = lines.Need();
-      const Transform world_from_sensor = ReadPoseLine(line.text, frame.stamp_ns, line.place);
-      text += PoseLine({frame.stamp_ns, world_from_sensor * sensor_from_vehicle});
-    }
-    return text;
+  // The vehicle's pose by the nominal mount of the first sensor, whose pose is recorded.
+  [[nodiscard]] std::string Pose(std::uint32_t i, const PlacedLine& own) const {
+    const std::int64_t stamp_ns = sensors_.front().pattern.StampNs(first_.spec.FrameAt(i));
+    const Transform world_from_sensor = ReadPoseLine(own.text, stamp_ns, own.place);
+    return PoseLine(
+        {stamp_ns, world_from_sensor * VehicleFromSensor(first_.scenario.lidar.mount).inverse()});
   }
 
   fs::path folder_;
   std::vector<MergedSensor> sensors_;
-  std::vector<MergedFrame> frames_;
-  std::vector<std::string> lines_;
+  const SensorPlan& first_;
   std::mutex mutex_;
   std::size_t num_done_ = 0;
 };
@@ -242,8 +248,7 @@ SensorsRecord SensorsRecordOf(const RunPlan& plan, bool is_merged) {
   MergedFolderRecord& merged = record.merged.emplace();
   merged.folder = kMergedFolder;
   for (const std::string_view file : {kMergedFile, kPosesFile}) {
-    merged.files.emplace_back(file,
-                              ContentHash(ReadFileWhole(plan.directory / kMergedFolder / file)));
+    merged.files.emplace_back(file, HashFile(plan.directory / kMergedFolder / file).hash);
   }
   return record;
 }
@@ -284,23 +289,19 @@ void RemoveUnfinished(const fs::path& directory) {
 
 }  // namespace
 
-std::vector<MergedFrame> MergedFramesOf(std::span<const MergedSensor> sensors) {
+MergedFrame MergedFrameOf(std::span<const MergedSensor> sensors, std::uint32_t i) {
   const MergedSensor& first = sensors.front();
-  std::vector<MergedFrame> merged;
-  for (std::uint32_t i = 0; i < first.plan.spec.num_frames; ++i) {
-    const std::uint32_t frame = first.plan.spec.FrameAt(i);
-    const std::int64_t begin_ns = first.pattern.StampNs(frame);
-    const std::int64_t end_ns = first.pattern.StampNs(frame + 1);
-    MergedFrame made{begin_ns, {}};
-    for (std::size_t sensor = 0; sensor < sensors.size(); ++sensor) {
-      for (const std::uint32_t part : FramesWithin(sensors[sensor], begin_ns, end_ns)) {
-        const std::int64_t later_ns = sensors[sensor].pattern.StampNs(part) - begin_ns;
-        made.parts.push_back({sensor, part, static_cast<std::uint32_t>(later_ns)});
-      }
+  const std::uint32_t frame = first.plan.spec.FrameAt(i);
+  const std::int64_t begin_ns = first.pattern.StampNs(frame);
+  const std::int64_t end_ns = first.pattern.StampNs(frame + 1);
+  MergedFrame made{begin_ns, {}};
+  for (std::size_t sensor = 0; sensor < sensors.size(); ++sensor) {
+    for (const std::uint32_t part : FramesWithin(sensors[sensor], begin_ns, end_ns)) {
+      const std::int64_t later_ns = sensors[sensor].pattern.StampNs(part) - begin_ns;
+      made.parts.push_back({sensor, part, static_cast<std::uint32_t>(later_ns)});
     }
-    merged.push_back(std::move(made));
   }
-  return merged;
+  return made;
 }
 
 void CheckCanMerge(const FrameMaker& maker, const RunPlan& plan) {

@@ -33,8 +33,8 @@ struct MergedFrame {
   std::vector<Part> parts;  ///< By sensor, then by frame.
 };
 
-/// Returns one for each frame that is made of the first sensor.
-[[nodiscard]] std::vector<MergedFrame> MergedFramesOf(std::span<const MergedSensor> sensors);
+/// Returns that of the i-th frame that is made of the first sensor.
+[[nodiscard]] MergedFrame MergedFrameOf(std::span<const MergedSensor> sensors, std::uint32_t i);
 
 /// Checks, before anything is made, that the clouds of the sensors can be merged.
 /// @throws InputError "--merged: must ...".
