@@ -91,8 +91,7 @@ class RunBag final : public RunOutput {
   std::int64_t begin_ns_;
   bool is_complete_ = false;
   std::uint64_t num_frames_ = 0;
-  BagLines found_;      ///< Lines of an interrupted bag.
-  WholeCommits whole_;  ///< What there is of these.
+  WholeCommits whole_;  ///< What there is of an interrupted bag.
   std::vector<bag::BagAttachment> attached_;
   std::optional<LineFile> lines_;
   std::unique_ptr<bag::BagWriter> writer_;
@@ -121,9 +120,8 @@ RunBag::RunBag(const RunPlan& plan, ros::TopicsSpec topics, std::int64_t begin_n
 // Finds what an unfinished bag holds. What cannot be read has no frames.
 void RunBag::FindFrames(const fs::path& bag) {
   try {
-    found_ = ReadBagLines(BagLinesFile(path_));
     const auto reader = bag::OpenBag(bag);
-    whole_ = FindWholeCommits(found_.commits, ReadMessageHashes(*reader));
+    whole_ = FindWholeCommits(BagLinesFile(path_), *reader);
     attached_ = reader->ReadAttachments();
   } catch (const InputError&) {
     whole_ = {};
@@ -170,7 +168,6 @@ void RunBag::Discard() {
   }
   is_complete_ = false;
   num_frames_ = 0;
-  found_ = {};
   whole_ = {};
   attached_.clear();
 }
@@ -201,7 +198,7 @@ std::uint64_t RunBag::Open(std::uint64_t num_frames) {
     writer_ = Continue(is_mcap_, path_, std::min(num_frames + kFirstCommits, whole_.num));
     num_commits = writer_->num_commits();
   }
-  lines_.emplace(BagLinesFile(path_), num_commits == 0 ? 0 : found_.commits[num_commits - 1].end);
+  lines_.emplace(BagLinesFile(path_), EndOfCommits(BagLinesFile(path_), num_commits));
   if (!writer_) writer_ = is_mcap_ ? bag::CreateMcap(path_) : bag::CreateRosbag2(path_);
   for (const bag::BagTopic& topic : bag_topics_) writer_->Add(topic);
   if (num_commits == 0 || !is_mcap_) {

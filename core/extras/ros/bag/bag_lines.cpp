@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <fstream>
 #include <string_view>
 #include <utility>
 
+#include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/extras/ros/bag/sqlite_database.h"
 #include "core/io/content_hash.h"
@@ -90,6 +92,83 @@ void CompareFiles(const fs::path& bag, const BagLines& lines, ErrorList& faults)
   if (!lines.tables.empty()) CompareTables(DatabaseOf(bag), lines.tables, faults);
 }
 
+/// Reads the lines of commits, one after another, up to the first that is incomplete or was
+/// changed.
+class CommitLines {
+ public:
+  struct Commit {
+    std::size_t num_messages{};
+    std::string hash;  ///< Hash of its messages.
+  };
+
+  explicit CommitLines(const fs::path& file) : file_(file) {
+    if (fs::exists(file)) stream_ = OpenInput(file);
+  }
+
+  [[nodiscard]] std::optional<Commit> Next() {
+    std::string line;
+    const bool is_whole = read_.files.empty() && std::getline(stream_, line) && !stream_.eof() &&
+                          LineHashFault(line).empty();
+    if (!is_whole) return End();
+    position_ += line.size() + 1;
+    auto record = ReadRecordLine<BagLineRecord>(
+        line, ShownPath(file_) + ":" + NumberText(read_.num_commits + 1));
+    if (record.files.empty()) {
+      ++read_.num_commits;
+      return Commit{record.num_messages.value_or(0), std::move(record.hash)};
+    }
+    read_.files = std::move(record.files);
+    read_.tables = std::move(record.tables);
+    return End();
+  }
+  /// Where the last line ends in the file that was read.
+  [[nodiscard]] std::uint64_t position() const { return position_; }
+  /// What was read so far.
+  [[nodiscard]] const BagLines& read() const { return read_; }
+
+ private:
+  std::optional<Commit> End() {
+    stream_.close();
+    return std::nullopt;
+  }
+
+  fs::path file_;
+  std::ifstream stream_;
+  std::uint64_t position_{};
+  BagLines read_;
+};
+
+/// Compares messages, in the order in which they were written, with the lines of their commits.
+class CommitCheck {
+ public:
+  explicit CommitCheck(const fs::path& lines) : lines_(lines) { NextCommit(); }
+
+  void Take(std::uint64_t hash) {
+    ++whole_.num_in_bag;
+    if (!commit_ || whole_.has_others) return;
+    messages_.push_back(hash);
+    if (messages_.size() < commit_->num_messages) return;
+    whole_.has_others = CommitHash(messages_) != commit_->hash;
+    if (whole_.has_others) return;
+    ++whole_.num;
+    whole_.num_messages += commit_->num_messages;
+    NextCommit();
+  }
+  [[nodiscard]] const WholeCommits& whole() const { return whole_; }
+
+ private:
+  void NextCommit() {
+    messages_.clear();
+    commit_ = lines_.Next();
+    whole_.num_in_next = commit_ ? commit_->num_messages : 0;
+  }
+
+  CommitLines lines_;
+  std::optional<CommitLines::Commit> commit_;
+  std::vector<std::uint64_t> messages_;  ///< Hashes of the commit so far.
+  WholeCommits whole_;
+};
+
 }  // namespace
 
 void Describe(Archive& a, BagLineRecord& s) {
@@ -122,20 +201,6 @@ std::uint64_t MessageHash(std::uint64_t topic_hash,
   return ContentHashNumber({reinterpret_cast<const char*>(parts.data()), sizeof parts});
 }
 
-std::vector<std::uint64_t> ReadMessageHashes(bag::BagReader& reader) {
-  std::vector<std::uint64_t> topics;
-  for (const bag::BagTopic& topic : reader.topics()) topics.push_back(TopicHash(topic));
-  std::vector<std::pair<bag::BagPlace, std::uint64_t>> placed;
-  while (const auto message = reader.Next()) {
-    placed.emplace_back(message->place,
-                        MessageHash(topics[message->topic], message->time_ns, message->data));
-  }
-  std::ranges::sort(placed);
-  std::vector<std::uint64_t> hashes;
-  for (const auto& [place, hash] : placed) hashes.push_back(hash);
-  return hashes;
-}
-
 std::string CommitLine(std::span<const std::uint64_t> messages) {
   return HashedRecordLine(
       BagLineRecord{.num_messages = messages.size(), .hash = CommitHash(messages)});
@@ -158,38 +223,36 @@ bool IsOfDatabase(const fs::path& file) {
 }
 
 BagLines ReadBagLines(const fs::path& file) {
-  BagLines lines;
-  if (!fs::exists(file)) return lines;
-  const std::string text = ReadFileWhole(file);
-  std::size_t begin = 0;
-  for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', begin)) {
-    const std::string line = text.substr(begin, end - begin);
-    if (!lines.files.empty() || !LineHashFault(line).empty()) break;
-    begin = end + 1;
-    const std::string place = ShownPath(file) + ":" + NumberText(lines.commits.size() + 1);
-    auto record = ReadRecordLine<BagLineRecord>(line, place);
-    if (record.files.empty()) {
-      lines.commits.push_back({record.num_messages.value_or(0), record.hash, begin});
-    } else {
-      lines.files = std::move(record.files);
-      lines.tables = std::move(record.tables);
-    }
+  CommitLines lines(file);
+  while (lines.Next()) {
   }
-  return lines;
+  return lines.read();
 }
 
-WholeCommits FindWholeCommits(const std::vector<BagLines::Commit>& commits,
-                              std::span<const std::uint64_t> messages) {
-  WholeCommits whole;
-  for (const BagLines::Commit& commit : commits) {
-    const std::span<const std::uint64_t> rest = messages.subspan(whole.num_messages);
-    if (commit.num_messages > rest.size()) break;
-    whole.has_others = CommitHash(rest.first(commit.num_messages)) != commit.hash;
-    if (whole.has_others) break;
-    ++whole.num;
-    whole.num_messages += commit.num_messages;
+std::uint64_t EndOfCommits(const fs::path& file, std::size_t num) {
+  CommitLines lines(file);
+  for (std::size_t i = 0; i < num; ++i) Check(lines.Next().has_value(), "the commit has its line");
+  return lines.position();
+}
+
+WholeCommits FindWholeCommits(const fs::path& lines, bag::BagReader& reader) {
+  std::vector<std::uint64_t> topics;
+  for (const bag::BagTopic& topic : reader.topics()) topics.push_back(TopicHash(topic));
+  CommitCheck commits(lines);
+  // They come in the order of their times, but were written in that of their places. The ids of a
+  // database count its messages, so that the next is known.
+  std::map<bag::BagPlace, std::uint64_t> waiting;
+  bag::BagPlace next{.in_part = {.record = 1}};
+  while (const auto message = reader.Next()) {
+    waiting.emplace(message->place,
+                    MessageHash(topics[message->topic], message->time_ns, message->data));
+    for (; !waiting.empty() && waiting.begin()->first == next; ++next.in_part.record) {
+      commits.Take(waiting.begin()->second);
+      waiting.erase(waiting.begin());
+    }
   }
-  return whole;
+  for (const auto& [place, hash] : waiting) commits.Take(hash);
+  return commits.whole();
 }
 
 void CompareWithBagLines(const fs::path& bag, bool is_finished, ErrorList& faults) {
@@ -206,21 +269,20 @@ void CompareWithBagLines(const fs::path& bag, bool is_finished, ErrorList& fault
   // The hash of a file stands for all that is in it.
   if (lines.files.contains(bag.filename().string())) return;
   const auto reader = bag::OpenBag(bag);
-  const std::vector<std::uint64_t> messages = ReadMessageHashes(*reader);
-  const WholeCommits whole = FindWholeCommits(lines.commits, messages);
+  const WholeCommits whole = FindWholeCommits(file, *reader);
   const std::string first = NumberText(whole.num_messages + 1);
   // What an interrupted bag lacks at its end is made anew.
-  if (is_finished ? whole.num < lines.commits.size() : whole.has_others) {
+  if (is_finished ? whole.num < lines.num_commits : whole.has_others) {
     faults.Add({ShownPath(bag),
                 "must hold the messages " + first + " to " +
-                    NumberText(whole.num_messages + lines.commits[whole.num].num_messages) +
-                    " as " + ShownPath(file) + ":" + NumberText(whole.num + 1) + " says",
+                    NumberText(whole.num_messages + whole.num_in_next) + " as " + ShownPath(file) +
+                    ":" + NumberText(whole.num + 1) + " says",
                 ""});
-  } else if (is_finished && whole.num_messages < messages.size()) {
+  } else if (is_finished && whole.num_messages < whole.num_in_bag) {
     faults.Add({ShownPath(bag),
                 "must hold " + NumberText(whole.num_messages) + " messages, as " +
                     std::string(kBagLinesFile) + " says",
-                NumberText(messages.size())});
+                NumberText(whole.num_in_bag)});
   }
 }
 

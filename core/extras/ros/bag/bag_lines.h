@@ -29,10 +29,6 @@ class Archive;
 [[nodiscard]] std::uint64_t MessageHash(std::uint64_t topic_hash,
                                         std::int64_t time_ns,
                                         std::span<const std::byte> data);
-/// The hashes of all messages of a bag, in the order in which they were written.
-/// @throws InputError as BagReader does.
-[[nodiscard]] std::vector<std::uint64_t> ReadMessageHashes(bag::BagReader& reader);
-
 /// The line of a commit, with its end.
 [[nodiscard]] std::string CommitLine(std::span<const std::uint64_t> messages);
 /// The last line: the hashes of a complete bag's files. That of a database is not among them, since
@@ -51,14 +47,9 @@ struct BagLineRecord {
 };
 void Describe(Archive& a, BagLineRecord& s);
 
-/// What the lines say.
+/// What the lines say that are no commit's.
 struct BagLines {
-  struct Commit {
-    std::size_t num_messages{};
-    std::string hash;     ///< Hash of its messages.
-    std::uint64_t end{};  ///< Where its line ends in the file.
-  };
-  std::vector<Commit> commits;
+  std::size_t num_commits{};                   ///< Lines of commits.
   std::map<std::string, std::string> files{};  ///< Hashes by name; none while it is unfinished.
   std::string tables{};  ///< Hash for a database; empty in bags of earlier releases.
 };
@@ -66,15 +57,22 @@ struct BagLines {
 /// Reads the lines up to the first that is incomplete or was changed; none without a file.
 /// @throws InputError if the file cannot be read.
 [[nodiscard]] BagLines ReadBagLines(const std::filesystem::path& file);
+/// Where the line of the last of these commits ends in the file.
+/// @pre There are as many.
+[[nodiscard]] std::uint64_t EndOfCommits(const std::filesystem::path& file, std::size_t num);
 
 /// How many of the first commits have the messages that the lines say.
 struct WholeCommits {
   std::size_t num{};
   std::size_t num_messages{};
-  bool has_others{};  ///< Whether others stand in place of the next commit's.
+  bool has_others{};          ///< Whether others stand in place of the next commit's.
+  std::size_t num_in_next{};  ///< Messages that the next commit's line says; 0 if there is none.
+  std::size_t num_in_bag{};   ///< All messages of the bag.
 };
-[[nodiscard]] WholeCommits FindWholeCommits(const std::vector<BagLines::Commit>& commits,
-                                            std::span<const std::uint64_t> messages);
+/// Neither lines nor messages are kept, but those of an MCAP file, whose index is, too.
+/// @throws InputError as ReadBagLines() and BagReader do.
+[[nodiscard]] WholeCommits FindWholeCommits(const std::filesystem::path& lines,
+                                            bag::BagReader& reader);
 
 /// Compares a bag with its lines.
 /// @param is_finished Whether the bag must be complete.
