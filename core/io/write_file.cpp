@@ -7,8 +7,8 @@
 #include <cerrno>
 #include <system_error>
 
-#include "core/base/inputs.h"
 #include "core/base/file_descriptor.h"
+#include "core/base/inputs.h"
 
 namespace railcast {
 namespace {

@@ -160,6 +160,7 @@ class CommitCheck {
   void NextCommit() {
     messages_.clear();
     commit_ = lines_.Next();
+    for (; commit_ && commit_->num_messages == 0; commit_ = lines_.Next()) ++whole_.num;
     whole_.num_in_next = commit_ ? commit_->num_messages : 0;
   }
 
