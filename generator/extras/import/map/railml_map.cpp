@@ -17,6 +17,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "generator/extras/import/map/gdal_errors.h"
 #include "generator/extras/import/map/xml_file.h"
 
 namespace railcast {
@@ -220,6 +221,7 @@ class RailMlReader final : public XmlMapReader {
   void ReadSystem(const RailMlElement& element) {
     const std::string id = element["id"];
     const std::string definition = element["crsDefinition"];
+    const GdalErrors not_printed;
     OGRSpatialReference from;
     OGRSpatialReference to;
     to.SetFromUserInput("EPSG:4326");

@@ -154,7 +154,7 @@ TEST_F(RailMl, IsRefusedInOneLineWhereItIsWrong) {
   EXPECT_EQ(Fault(R"(<netElement id="ne1"><intrinsicCoordinate intrinsicCoord="0">
 <geometricCoordinate positioningSystemRef="map" x="15.6" y="48.2"/></intrinsicCoordinate>
 </netElement>)"),
-            "net.xml: line 3, netElement ne1/positioningSystemRef: must be a "
+            "net.xml: line 4, netElement ne1/positioningSystemRef: must be a "
             "geometricPositioningSystem of "
             "this file (got map)");
   EXPECT_EQ(Fault(Net("ne1", Point("0", R"(x="15.6")"))),
@@ -184,7 +184,7 @@ TEST_F(RailMl, IsRefusedInOneLineWhereItIsWrong) {
   EXPECT_EQ(Fault(Track() + Cant("", "0", "")),
             "net.xml: line 3, superelevationCurve c1/superelevation: must be a number (got none)");
   const std::string cut = FaultOf(R"(<?xml version="1.0"?><railML version="3.2"><common>)");
-  EXPECT_THAT(cut, ::testing::HasSubstr("net.xml: must be XML to its end ("));
+  EXPECT_THAT(cut, ::testing::HasSubstr("net.xml: line 1: must be XML to its end ("));
 }
 
 }  // namespace
