@@ -203,11 +203,11 @@ std::string RunDirectory::WhatChanged() const {
   if (num_done_ < spec_.num_frames) return "frame " + std::to_string(spec_.FrameAt(num_done_));
   std::string lines = lines_.FileWithOthers();
   if (!lines.empty()) return lines;
-  std::vector<FixedFile> files = FixedFiles();
-  files.push_back(FixedText(std::string(kManifestFile), ManifestJson()));
-  const auto changed = std::ranges::find_if_not(
-      files, [&](const FixedFile& file) { return HasFixedFile(directory, file); });
-  return changed == files.end() ? "" : changed->name;
+  for (const FixedFile& file : FixedFiles()) {
+    if (!HasFixedFile(directory, file)) return file.name;
+  }
+  const FixedFile manifest = FixedText(std::string(kManifestFile), ManifestJson());
+  return HasFixedFile(directory, manifest) ? "" : manifest.name;
 }
 
 std::vector<FixedFile> RunDirectory::FixedFiles() const {

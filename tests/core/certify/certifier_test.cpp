@@ -156,7 +156,7 @@ TEST(Certifier, DrawsTheFiringsOfARegionThatItDrawsOfAll) {
   const ScenarioSpec scenario = LineAt(Fidelity::kSurface);
   const auto simulator = MakeSimulator(scenario, 1);
   // Those of trees and grass have probability 1, others less.
-  const Certifier certifier(scenario, 20.0, *simulator);
+  const Certifier certifier(scenario, 40.0, *simulator);
   const auto begun = simulator->Begin(3);
   Frame frame;
   simulator->Scan(*begun, frame);
