@@ -199,23 +199,16 @@ bool AreRows(std::string_view bytes, std::size_t num_rows) {
          CanBePositions(numbers, num_rows);
 }
 
-/// Whether numbers are like those next to them rather than like those of the next point. No other
-/// row tells three rows from points of three numbers.
-bool AreThreeRows(std::string_view bytes) {
-  constexpr double kClear = 0.9;
-  const auto numbers = SomeNumbers<float>(bytes);
-  return DifferenceAt(numbers, 1) < kClear * DifferenceAt(numbers, 3);
-}
-
 /// Says that the numbers of a file stand in rows; empty if they do not.
 std::string SayRows(std::string_view bytes) {
   // The most first, for rows of others lie within fewer.
-  for (const std::size_t num : {6UL, 5UL, 4UL, 3UL}) {
-    if (!AreRows(bytes, num) || (num == 3 && !AreThreeRows(bytes))) continue;
+  for (const std::size_t num : {6UL, 5UL, 4UL}) {
+    if (!AreRows(bytes, num)) continue;
     const std::string rows = NumberText(num);
-    return "they stand in " + rows + (num == 3 ? " rows, x, y, z" : " rows, x, y, z and others") +
-           ", one after the other: numpy.fromfile(FILE, 'float32').reshape(" + rows +
-           ", -1).T.tofile(FILE) stores them by points";
+    return "they stand in " + rows +
+           " rows, x, y, z and others, one after the other: numpy.fromfile(FILE, "
+           "'float32').reshape(" +
+           rows + ", -1).T.tofile(FILE) stores them by points";
   }
   return {};
 }
