@@ -134,7 +134,7 @@ TEST(StudyTable, HasWordsAndColoursOnThePage) {
         // At the head, of all approaches: 150 m are needed at most.
         ("<dt>person: detected in time</dt><dd><span class=\"figure words\"><span class=\"grade "
          "bad\">no</span>"),
-        "<dt>person: needed, at most</dt><dd><span class=\"figure\">150</span>",
+        "<dt>person: needed, at most</dt><dd><span class=\"figure number\">150</span>",
         "<th scope=\"row\">clear</th>"}) {
     EXPECT_THAT(page, testing::HasSubstr(cell));
   }
