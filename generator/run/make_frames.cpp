@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <deque>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -12,7 +11,6 @@
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
 #include "core/fidelity/choice_report.h"
-#include "core/io/run/run_folder.h"
 #include "core/io/run/sensors_record.h"
 #include "core/io/unfinished_file.h"
 #include "core/program/stop_signals.h"
@@ -313,13 +311,18 @@ void UseCertificates(FrameMaker& maker, RunPlan& plan) {
   }
 }
 
-PlanResult MakeFrames(FrameMaker& maker, const RunPlan& plan, const SequenceHooks& hooks) {
-  std::deque<FolderLock> locks;
+RunFolders::RunFolders(const RunPlan& plan) {
   if (plan.is_in_folders()) {
-    locks.emplace_back(plan.directory);
+    locks_.emplace_back(plan.directory);
     RefuseOtherFiles(plan);
   }
-  for (const SensorPlan& sensor : plan.sensors) locks.emplace_back(sensor.spec.directory);
+  for (const SensorPlan& sensor : plan.sensors) locks_.emplace_back(sensor.spec.directory);
+}
+
+PlanResult MakeFrames(FrameMaker& maker,
+                      const RunPlan& plan,
+                      const RunFolders& /*folders*/,
+                      const SequenceHooks& hooks) {
   std::vector<SensorSequence> sequences;
   for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
     const SequenceSpec& spec = plan.sensors[i].spec;

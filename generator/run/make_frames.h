@@ -2,12 +2,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/io/run/frame_record.h"
+#include "core/io/run/run_folder.h"
 #include "generator/run/frame_maker.h"
 #include "generator/run/frame_pipe.h"
 #include "generator/run/run_plan.h"
@@ -74,12 +76,24 @@ struct PlanResult {
   bool is_complete{};                     ///< So are all of these, and FinishRun() is done.
 };
 
+/// The folders that the run of a plan writes to: they hold nothing but what is the run's, and no
+/// other run writes there while this exists.
+class RunFolders {
+ public:
+  /// @throws InputError as FolderLock does, or if a folder holds anything else.
+  explicit RunFolders(const RunPlan& plan);
+
+ private:
+  std::deque<FolderLock> locks_;
+};
+
 /// Makes the missing frames of a plan in one pass through simulation time: of all sensors, the
 /// frame that begins first is made first; then the bag's end and what is about all sensors.
-/// Otherwise as RunSequence(), with progress over all frames. No other run writes to the plan's
-/// directory meanwhile.
+/// Otherwise as RunSequence(), with progress over all frames.
+/// @param folders The plan's.
 [[nodiscard]] PlanResult MakeFrames(FrameMaker& maker,
                                     const RunPlan& plan,
+                                    const RunFolders& folders,
                                     const SequenceHooks& hooks);
 
 /// Makes the frames of a sequence that its directory does not hold yet. Frames are made and encoded

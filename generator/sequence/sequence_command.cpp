@@ -85,26 +85,17 @@ bool PrintSummaries(const std::optional<std::filesystem::path>& summary,
   return false;
 }
 
-// A file in the directory of the frames would be a stranger there.
-void CheckIsBeside(const std::string& option,
-                   const std::optional<std::filesystem::path>& file,
-                   const std::filesystem::path& out) {
-  if (!file) return;
-  if (IsInFolder(*file, out)) {
-    throw InputError(option + ": must not be in the directory of --out (got " + ShownPath(*file) +
-                     ")");
-  }
-  CheckCanWrite(*file);
-}
-
 int RunSequenceCommand(const SequenceOptions& options) {
-  CheckIsBeside("--summary", options.summary, options.made.directory);
-  CheckIsBeside("--picture", options.picture, options.made.directory);
   RunPlan plan = PlanOf(options);
   // Now all that is read is known.
   CheckOutputFiles(
-      {{"SCENARIO", options.scenario}, {"--commands", options.commands.value_or("")}},
+      {{"SCENARIO", options.scenario},
+       {"--commands", options.commands.value_or("")},
+       {"--out", options.made.directory}},
       {{"--summary", options.summary.value_or("")}, {"--picture", options.picture.value_or("")}});
+  for (const auto& file : {options.summary, options.picture}) {
+    if (file) CheckCanWrite(*file);
+  }
   FrameMaker maker(plan.scenario, options.made.num_threads, plan.sensors.front().spec.isa);
   for (std::size_t i = 0; options.is_verbose && i < maker.num_sensors(); ++i) {
     std::cerr << "made the simulator: " << maker.pattern(i).num_firings() << " firings a frame, "
@@ -113,9 +104,9 @@ int RunSequenceCommand(const SequenceOptions& options) {
   }
   AtPlace(plan.commands_place, [&] { maker.Apply(plan.commands); });
   SetFrames(maker, plan);
-  if (plan.is_in_folders()) RefuseOtherFiles(plan);
   CheckJourney(maker, plan);
   if (plan.is_merged) CheckCanMerge(maker, plan);
+  const RunFolders folders(plan);
   // The directory can be resumed however the program ends.
   CatchStopSignals();
   const auto say_choice = [&](const SensorPlan& sensor, const FidelityChoice& choice) {
@@ -141,7 +132,7 @@ int RunSequenceCommand(const SequenceOptions& options) {
     return kExitInterrupted;
   }
   UseCertificates(maker, plan);
-  const PlanResult result = MakeFrames(maker, plan, hooks);
+  const PlanResult result = MakeFrames(maker, plan, folders, hooks);
   if (merging) merging->End();
   if (!has_all) return kExitInterrupted;
   if (result.is_complete && options.picture) {

@@ -282,7 +282,7 @@ class DatasetRun {
     const auto ignore = [](const SensorPlan&, const FidelityChoice&) {};
     if (!ChooseFidelities(maker, ignore, hooks, plan)) return false;
     UseCertificates(maker, plan);
-    const PlanResult made = MakeFrames(maker, plan, hooks);
+    const PlanResult made = MakeFrames(maker, plan, RunFolders(plan), hooks);
     for (const SequenceResult& each : made.sequences) {
       num_frames_ += each.num_done - each.num_resumed;
     }

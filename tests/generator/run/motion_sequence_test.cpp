@@ -151,7 +151,7 @@ void MakeSequenceOf(const std::filesystem::path& directory,
   RunPlan plan = PlanRun(ScenarioWithMotion(), choices, "scenario.json");
   FrameMaker maker(plan.scenario, num_threads);
   SetFrames(maker, plan);
-  EXPECT_TRUE(MakeFrames(maker, plan, NoHooks()).is_complete);
+  EXPECT_TRUE(MakeFrames(maker, plan, RunFolders(plan), NoHooks()).is_complete);
 }
 
 TEST(MotionSequence, HasTheSameSamplesFromAnyFirstFrameOnAndAtAnyNumberOfThreads) {

@@ -56,7 +56,7 @@ class SequenceRuns : public testing::Test {
     std::uint32_t num_begun = 0;
     const SequenceHooks hooks = {[](std::uint32_t, std::uint32_t) {},
                                  [&] { return num_begun++ >= num_frames; }};
-    return MakeFrames(maker, plan, hooks).sequences;
+    return MakeFrames(maker, plan, RunFolders(plan), hooks).sequences;
   }
 
   const std::string frames_;  ///< The option for a whole run.

@@ -216,7 +216,7 @@ TEST_F(RunOfTwoSensors, IsNamedWhileItIsMade) {
   SetFrames(maker, plan);
   SequenceHooks hooks = NoHooks();
   hooks.is_stopped = [] { return true; };
-  EXPECT_FALSE(MakeFrames(maker, plan, hooks).is_complete);
+  EXPECT_FALSE(MakeFrames(maker, plan, RunFolders(plan), hooks).is_complete);
   EXPECT_TRUE(IsOfSensors(begun));
   const std::string missing = ": missing: the run is unfinished";
   EXPECT_THAT(VerifyFolder(begun, [](double) {}).faults,
