@@ -103,12 +103,12 @@ void CheckOutputFiles(std::vector<GivenPath> inputs, const std::vector<GivenPath
   for (const GivenPath& output : outputs) {
     if (output.path.empty()) continue;
     CheckIsOutside(output.option, output.path);
-    AtPlace(output.option + " ", [&] { CheckIsNoInput(output.path); });
     for (const GivenPath& other : inputs) {
       if (other.path.empty() || !WouldReplace(output.path, other.path)) continue;
       throw InputError(output.option + ": must not be " + other.option + " or in it (got " +
                        ShownPath(output.path) + ")");
     }
+    AtPlace(output.option + " ", [&] { CheckIsNoInput(output.path); });
     inputs.push_back(output);
   }
 }
