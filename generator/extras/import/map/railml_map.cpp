@@ -152,6 +152,7 @@ class RailMlReader final : public XmlMapReader {
   }
 
   RailMap Make() override {
+    const GdalErrors not_printed;
     Read();
     faults_.list().ThrowIfAny();
     RailMap map = Map();
@@ -221,7 +222,6 @@ class RailMlReader final : public XmlMapReader {
   void ReadSystem(const RailMlElement& element) {
     const std::string id = element["id"];
     const std::string definition = element["crsDefinition"];
-    const GdalErrors not_printed;
     OGRSpatialReference from;
     OGRSpatialReference to;
     to.SetFromUserInput("EPSG:4326");
@@ -240,7 +240,7 @@ class RailMlReader final : public XmlMapReader {
   }
 
   void ReadNetElement(const RailMlElement& element) {
-    NetElement net{element["id"], "", {}, {}, {}};
+    NetElement net{element["id"], element["name"], {}, {}, {}};
     const std::string place = "netElement " + ShownText(net.id);
     all_nets_.insert(net.id);
     const std::size_t num_faults = faults_.list().size();

@@ -139,6 +139,15 @@ TEST_F(RailMl, IsRefusedWhereAllPointsOfASystemInMetresMayBeDegrees) {
   EXPECT_NEAR(map.nodes[0].geographic_deg.y(), 48.2, 0.001) << "20 m from the origin";
 }
 
+TEST_F(RailMl, NamesAWayByTheNameInItsNetElement) {
+  std::string track = Track();
+  const std::string begin = R"(<netElement id="ne1">)";
+  track.insert(track.find(begin) + begin.size(), R"(<name name="Hauptgleis" language="de"/>)");
+  const RailMap map = Read(track);
+  ASSERT_THAT(map.ways, SizeIs(1));
+  EXPECT_EQ(map.ways[0].tags.at("name"), "Hauptgleis");
+}
+
 TEST_F(RailMl, IsRefusedByNameInItsOlderVersion) {
   EXPECT_EQ(FaultOf(R"(<railml xmlns="https://www.railml.org/schemas/2018" version="2.4">
 <infrastructure><tracks/></infrastructure></railml>)"),
