@@ -10,8 +10,8 @@
 #include "analysis/compare/comparison.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
-#include "analysis/thread_limit.h"
 #include "core/base/join.h"
+#include "core/base/parallelism.h"
 #include "core/fidelity/sample_frames.h"
 #include "core/io/recording/source_choice.h"
 #include "core/io/run/run_folder.h"
@@ -136,7 +136,7 @@ int RunAblation(const CompareOptions& options, const std::string& command_line) 
 int RunCompare(const CompareOptions& options, const std::string& command_line) {
   CheckReportFolder(options.output.out,
                     {options.scenario.empty() ? "compare.json" : "ablation.json"});
-  const tbb::global_control limit = LimitThreads(options.num_threads);
+  const auto limit = LimitThreads(options.num_threads);
   return options.scenario.empty() ? RunPairs(options, command_line)
                                   : RunAblation(options, command_line);
 }

@@ -11,8 +11,8 @@
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "analysis/stats/statistics.h"
-#include "analysis/thread_limit.h"
 #include "core/base/join.h"
+#include "core/base/parallelism.h"
 #include "core/io/cloud/track_fields.h"
 #include "core/io/recording/recording_extras.h"
 #include "core/io/recording/recording_kinds.h"
@@ -215,7 +215,7 @@ Section SheetSection(const std::vector<MeasuredSource>& sources) {
 
 int RunStats(const StatsOptions& options, const std::string& command_line) {
   CheckReportFolder(options.output.out, {"stats.json"});
-  const tbb::global_control limit = LimitThreads(options.num_threads);
+  const auto limit = LimitThreads(options.num_threads);
   // A sensor is chosen by its address in captures, and by its name in sequences.
   SourceChoice choice = options.choice;
   if (ParseSender(options.sensor)) choice.sensor = options.sensor;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -14,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/parallelism.h"
 #include "core/detect/base/beam_optics.h"
 #include "core/detect/clutter/bright_echo.h"
 #include "core/simulate/beam_tracer.h"
@@ -65,7 +65,7 @@ struct Simulator::Parts {
   std::vector<FiringVariant> variants;
   std::vector<Detection> others;  ///< By the variants; empty if the spec has changed since.
   std::mutex others_mutex{};
-  std::unique_ptr<tbb::global_control> parallelism;
+  HeldThreads parallelism;
   tbb::task_arena arena;
 
   /// Where the sensor is said to be.

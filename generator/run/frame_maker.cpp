@@ -1,6 +1,9 @@
 #include "generator/run/frame_maker.h"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
+#include <deque>
 #include <string>
 #include <utility>
 
@@ -45,6 +48,10 @@ struct CommandEffect {
 
 }  // namespace
 
+struct FrameMaker::Surveys {
+  std::deque<tbb::enumerable_thread_specific<CurrentSurvey>> of_sensors;
+};
+
 FrameMaker::FrameMaker(const ScenarioSpec& scenario, int num_threads, const std::string& isa)
     : FrameMaker(scenario, MakeSimulators(scenario, num_threads, isa)) {}
 
@@ -52,7 +59,8 @@ FrameMaker::FrameMaker(ScenarioSpec scenario, std::vector<std::unique_ptr<Simula
     : scenario_(std::move(scenario)),
       labels_(scenario_.labels),
       simulators_(std::move(simulators)),
-      surveys_(simulators_.size()) {
+      surveys_(std::make_shared<Surveys>()) {
+  surveys_->of_sensors.resize(simulators_.size());
   // Every simulator of a scenario has the world that MakeWorld returns and shares its ownership.
   auto world = std::dynamic_pointer_cast<const RailWorld>(simulators_.front()->shared_world());
   Check(world != nullptr, "the world of a scenario is a railway");
@@ -148,7 +156,7 @@ std::vector<ObjectInFrame> FrameMaker::ScanAndDescribe(std::size_t sensor,
   Simulator& simulator = *simulators_[sensor];
   std::vector<ObjectView> views;
   simulator.Scan(begun, frame, views);
-  return surveys_[sensor].local().Of(simulator, labels_).Describe(frame, views);
+  return surveys_->of_sensors[sensor].local().Of(simulator, labels_).Describe(frame, views);
 }
 
 MotionSamples FrameMaker::SampleMotion(BegunFrame& begun) const {

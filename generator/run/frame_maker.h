@@ -1,10 +1,7 @@
 #pragma once
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -133,7 +130,8 @@ class FrameMaker {
   std::uint32_t frames_per_image_ = 1;
   std::optional<MotionSensors> motion_sensors_;
   /// By sensor. Each survey remembers what it measured, so that each thread has its own.
-  std::deque<tbb::enumerable_thread_specific<CurrentSurvey>> surveys_;
+  struct Surveys;
+  std::shared_ptr<Surveys> surveys_;
   std::map<std::size_t, Certifier> certifiers_;  ///< By sensor.
 };
 

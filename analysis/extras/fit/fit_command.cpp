@@ -10,7 +10,7 @@
 #include "analysis/extras/fit/recorded_trials.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
-#include "analysis/thread_limit.h"
+#include "core/base/parallelism.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/source_choice.h"
 #include "core/io/run/run_folder.h"
@@ -106,7 +106,7 @@ void Judge(const FitProof& proof,
 
 int RunFit(const FitOptions& options, const std::string& command_line) {
   CheckReportFolder(options.output.out, {"fit.json", "fitted.json", "fitted_scenario.json"});
-  const tbb::global_control limit = LimitThreads(options.num_threads);
+  const auto limit = LimitThreads(options.num_threads);
   const auto sources = WithChoice(options.sources, options.choice);
   CheckDistinct(sources);
   std::vector<RecordingInfo> infos;

@@ -8,8 +8,8 @@
 #include "analysis/extras/preset/receiver_figures.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
-#include "analysis/thread_limit.h"
 #include "core/base/error.h"
+#include "core/base/parallelism.h"
 #include "core/io/recording/source_choice.h"
 #include "core/program/version.h"
 #include "railcast/io/recording.h"
@@ -34,7 +34,7 @@ Sectors SectorsOf(const std::string& name) {
 
 int RunPreset(const PresetOptions& options, const std::string& command_line) {
   CheckReportFolder(options.output.out, {"preset.json"});
-  const tbb::global_control limit = LimitThreads(options.num_threads);
+  const auto limit = LimitThreads(options.num_threads);
   const std::filesystem::path source = WithChoice({options.source}, options.choice).front();
   const auto recording = OpenRecording(source);
   const RecordingInfo& info = recording->info();

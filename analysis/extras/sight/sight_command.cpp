@@ -8,7 +8,7 @@
 #include "analysis/extras/sight/sight.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
-#include "analysis/thread_limit.h"
+#include "core/base/parallelism.h"
 #include "core/base/units.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/program/progress_line.h"

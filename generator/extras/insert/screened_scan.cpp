@@ -1,7 +1,6 @@
 #include "generator/extras/insert/screened_scan.h"
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -144,7 +143,7 @@ struct ScreenedScan::Parts {
   std::uint16_t first_material;
   std::vector<Material> materials;
   FrameScenes scenes;
-  std::unique_ptr<tbb::global_control> parallelism;
+  HeldThreads parallelism;
   tbb::task_arena arena;
   std::uint32_t num_rows = 0;
   std::vector<Way> variants{};
