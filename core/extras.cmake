@@ -1,17 +1,19 @@
 # Extras are what can be taken away: folders below core/extras, generator/extras and analysis/extras, which the product knows
 # only as far as they are there.
 
-# railcast_extra([USES FOLDER...] [NEEDS PACKAGE...] [ADDS TYPE...] [COMMANDS NAME...] SOURCES SOURCE... [LIBS LIBRARY...]): what
-# the CMakeLists.txt of an extra's folder begins with. Its name is the folder's, its option RAILCAST_BUILD_NAME, on by default
-# where the packages are there that it needs. What follows in the file is left out where the option is off, or where an
-# extra that it uses is not built.
+# railcast_extra([USES FOLDER...] [NEEDS PACKAGE...] [ADDS TYPE...] [COMMANDS NAME...] [UNIT NAME] SOURCES SOURCE...
+# [LIBS LIBRARY...]): what the CMakeLists.txt of an extra's folder begins with. Its name is the folder's, its option
+# RAILCAST_BUILD_NAME, on by default where the packages are there that it needs. What follows in the file is left out where
+# the option is off, or where an extra that it uses is not built.
 #
 # USES names folders of other extras without the word extras: core/ros. NEEDS names packages for find_package(). ADDS
 # names the types of registries (railcast_gather_extras()) that the extra fills by a function AddNAME, COMMANDS the
 # commands of the programs that it adds. The library is
-# railcast_NAME, or railcast_generate_NAME and railcast_analyze_NAME below generator and analysis.
+# railcast_NAME, or railcast_generate_NAME and railcast_analyze_NAME below generator and analysis. In a unity build, extras
+# that name the same UNIT are one library, to which their names lead: a few hundred lines alone would be parsed with as
+# many headers as thousands. What follows in the file calls the library ${extra_target}.
 macro(railcast_extra)
-  cmake_parse_arguments(EXTRA "" "" "USES;NEEDS;ADDS;COMMANDS;SOURCES;LIBS" ${ARGN})
+  cmake_parse_arguments(EXTRA "" "UNIT" "USES;NEEDS;ADDS;COMMANDS;SOURCES;LIBS" ${ARGN})
   cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE extra_folder)
   string(REPLACE "/extras/" "/" extra_folder ${extra_folder})
   railcast_name_extra(${extra_folder} extra_target)
@@ -24,7 +26,11 @@ macro(railcast_extra)
       message(STATUS "Without ${extra_folder}, which uses ${used}")
       return()
     endif()
-    list(APPEND EXTRA_LIBS ${used_target})
+    # No library is linked to itself.
+    get_target_property(used_unit ${used_target} ALIASED_TARGET)
+    if(NOT used_unit OR NOT used_unit STREQUAL "railcast_unit_${EXTRA_UNIT}")
+      list(APPEND EXTRA_LIBS ${used_target})
+    endif()
   endforeach()
   set(extra_has_packages ON)
   foreach(needed IN LISTS EXTRA_NEEDS)
@@ -40,8 +46,20 @@ macro(railcast_extra)
   if(NOT extra_has_packages)
     message(FATAL_ERROR "${extra_option} is ON, but one of its packages is not there: ${EXTRA_NEEDS}")
   endif()
-  add_library(${extra_target} STATIC ${EXTRA_SOURCES})
-  target_precompile_headers(${extra_target} REUSE_FROM railcast_core)
+  if(EXTRA_UNIT AND CMAKE_UNITY_BUILD)
+    set(extra_unit railcast_unit_${EXTRA_UNIT})
+    if(NOT TARGET ${extra_unit})
+      add_library(${extra_unit} STATIC)
+      target_precompile_headers(${extra_unit} REUSE_FROM railcast_core)
+    endif()
+    add_library(${extra_target} ALIAS ${extra_unit})
+    set(extra_target ${extra_unit})
+  else()
+    add_library(${extra_target} STATIC)
+    target_precompile_headers(${extra_target} REUSE_FROM railcast_core)
+  endif()
+  list(TRANSFORM EXTRA_SOURCES PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  target_sources(${extra_target} PRIVATE ${EXTRA_SOURCES})
   target_link_libraries(${extra_target} PUBLIC ${EXTRA_LIBS} PRIVATE $<BUILD_INTERFACE:railcast_internal>)
   foreach(type IN LISTS EXTRA_ADDS)
     set_property(GLOBAL APPEND PROPERTY RAILCAST_${type} ${extra_name})

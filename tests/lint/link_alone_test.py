@@ -22,7 +22,11 @@ def faults_of(extras, product_needs, product_defines, of_extra):
     owner = {symbol: name for name, (defined, _) in of_extra.items() for symbol in defined - product_defines}
 
     def reached(name):
-        return {name}.union(*(reached(used) for used in extras[name]["uses"]))
+        found, left = set(), [name]
+        while left:
+            found.add(last := left.pop())
+            left += set(extras[last]["uses"]) - found
+        return found
 
     for name, allowed, needed in [("the product", set(), product_needs),
                                   *((name, reached(name), needed) for name, (_, needed) in of_extra.items())]:
@@ -32,12 +36,22 @@ def faults_of(extras, product_needs, product_defines, of_extra):
                 yield f"{name} needs {symbol} of {owner[symbol]}"
 
 
+def joined(extras):
+    """Those that are one library as one extra, which uses what each of them does."""
+    of_file = {}
+    for name, extra in extras.items():
+        of_file.setdefault(extra["file"], []).append(name)
+    unit_of = {name: names[0] for names in of_file.values() for name in names}
+    return {names[0]: {"file": file, "uses": sorted({unit_of[used] for name in names for used in extras[name]["uses"]} - {names[0]})}
+            for file, names in of_file.items()}
+
+
 def main():
     with open(sys.argv[1], encoding="utf-8") as file:
         listed = json.load(file)
-    extras = listed["extras"]
     product = [symbols(library) for library in listed["product"]]
     defines, needs = (set().union(*sets) for sets in zip(*product))
+    extras = joined(listed["extras"])
     of_extra = {name: symbols(extra["file"]) for name, extra in extras.items()}
     faults = list(faults_of(extras, needs, defines, of_extra))
     if faults:
