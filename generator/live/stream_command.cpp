@@ -298,7 +298,6 @@ int RunStream(const StreamOptions& options) {
       {{"--pcap", options.pcap.value_or("")},
        {"--commands-log", options.commands_log.value_or("")},
        {"--summary", options.summary.value_or("")}});
-  if (options.summary) CheckCanWrite(*options.summary);
   const std::vector<SensorStreamSpec> plan = PlanStreams(options, scenario);
   const LiveExtras& extras = LiveExtras::Get();
   const auto topics_plan = extras.ros ? extras.ros->plan(options, scenario, plan) : std::nullopt;

@@ -93,9 +93,6 @@ int RunSequenceCommand(const SequenceOptions& options) {
        {"--commands", options.commands.value_or("")},
        {"--out", options.made.directory}},
       {{"--summary", options.summary.value_or("")}, {"--picture", options.picture.value_or("")}});
-  for (const auto& file : {options.summary, options.picture}) {
-    if (file) CheckCanWrite(*file);
-  }
   FrameMaker maker(plan.scenario, options.made.num_threads, plan.sensors.front().spec.isa);
   for (std::size_t i = 0; options.is_verbose && i < maker.num_sensors(); ++i) {
     std::cerr << "made the simulator: " << maker.pattern(i).num_firings() << " firings a frame, "

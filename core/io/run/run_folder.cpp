@@ -108,7 +108,7 @@ void CheckOutputFiles(std::vector<GivenPath> inputs, const std::vector<GivenPath
       throw InputError(output.option + ": must not be " + other.option + " or in it (got " +
                        ShownPath(output.path) + ")");
     }
-    AtPlace(output.option + " ", [&] { CheckIsNoInput(output.path); });
+    CheckCanWrite(output.path);
     inputs.push_back(output);
   }
 }

@@ -72,10 +72,10 @@ struct GivenPath {
   std::filesystem::path path;
 };
 
-/// Checks that files are to be written outside of the folders of CheckIsOutside(), and over neither
-/// what a command reads nor each other.
+/// Checks that files can be written, outside of the folders of CheckIsOutside(), and over neither
+/// what a command reads nor each other. Leaves nothing behind.
 /// @throws InputError as CheckIsOutside(); "--summary: must not be SCENARIO or in it (got a.json)";
-///   or as CheckIsNoInput(), after the option's name.
+///   or as CheckCanWrite().
 void CheckOutputFiles(std::vector<GivenPath> inputs, const std::vector<GivenPath>& outputs);
 
 /// Makes a folder and those that it lies in, unless they are there.

@@ -157,7 +157,6 @@ int ReportReplay(const LiveResult& result, const ReplayFeed& feed, const ReplayO
 int RunReplayCommand(const ReplayOptions& options) {
   CheckOutputFiles({{"RECORDING", options.recording}, {"--insert", options.insert.value_or("")}},
                    {{"--summary", options.summary.value_or("")}});
-  if (options.summary) CheckCanWrite(*options.summary);
   const auto feed = OpenFeed(options);
   const auto channel = OpenChannel(options);
   std::optional<StepLoop> steps;
