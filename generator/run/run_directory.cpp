@@ -285,9 +285,7 @@ void RunDirectory::Encode(const MadeFrame& made, EncodedFrame& encoded) const {
     encoded.trace_message = trace_->Encode(made);
     encoded.record.clouds_hash = ContentHash(encoded.trace_message);
   }
-  for (const FrameFile& file : encoded.files) {
-    encoded.record.files.push_back({file.name, ContentHash(file.bytes), file.bytes.size()});
-  }
+  encoded.record.files = KnownFilesOf(encoded.files);
   encoded.pose = PoseRecord(frame.stamp_ns, frame.world_from_sensor);
   encoded.objects_line = ObjectsLine(frame, made.objects);
   encoded.motion_lines = MotionLinesOf(made.motion);

@@ -11,6 +11,7 @@
 #include "core/io/content_hash.h"
 #include "core/io/record/read_record.h"
 #include "core/scenario/archive.h"
+#include "railcast/io/cloud_files.h"
 
 namespace railcast {
 namespace {
@@ -158,6 +159,14 @@ FrameCounts CountFrame(const Frame& frame, const LabelTable& labels) {
     counts.points_per_label[label->name] = count;
   }
   return counts;
+}
+
+std::vector<KnownFile> KnownFilesOf(const std::vector<FrameFile>& files) {
+  std::vector<KnownFile> known;
+  for (const FrameFile& file : files) {
+    known.push_back({file.name, ContentHash(file.bytes), file.bytes.size()});
+  }
+  return known;
 }
 
 std::vector<RecordedScanPose> ScanPosesOf(const Frame& frame) {

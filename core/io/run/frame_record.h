@@ -16,6 +16,7 @@
 namespace railcast {
 
 class Archive;
+struct FrameFile;
 
 /// Returns the rotation as a quaternion with w >= 0, so that of the two for the same rotation it is
 /// always the same one.
@@ -95,6 +96,9 @@ void Describe(Archive& a, RecordedScanPose& s);
 
 /// @throws InputError "place: rule" unless each is later than the one before it.
 void CheckTimes(const std::vector<RecordedScanPose>& poses, const std::string& place);
+
+/// What a frame's record says of its encoded files.
+[[nodiscard]] std::vector<KnownFile> KnownFilesOf(const std::vector<FrameFile>& files);
 
 /// A line of frames.jsonl, which states that a frame is complete.
 struct FrameRecord {

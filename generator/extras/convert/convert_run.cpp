@@ -96,35 +96,30 @@ class RecordingConversion {
 
  private:
   void MakeFrames() {
-    std::uint32_t num_done = folder_.num_done();
-    WithFramePipe(choices_.num_threads, [&](FramePipe& pipe) {
-      std::vector<ConvertSlot> slots(pipe.num_slots());
-      pipe.begin = [&, first = survey_.range.first + num_done](std::size_t i) {
-        for (; next_ < first; ++next_) (void)source_.Next();
-        if (next_ == survey_.range.first + survey_.range.num || hooks_.is_stopped()) return false;
-        auto read = source_.Next();
-        if (!read) return false;
-        slots[i].number = next_++;
-        slots[i].read = std::move(*read);
-        return true;
-      };
-      pipe.stages = {{false, [&](std::size_t i) {
-                        ConvertSlot& slot = slots[i];
-                        const SourceFrame source = std::exchange(slot.read, {})();
-                        slot.frame = {};
-                        slot.frame.record.frame.frame = slot.number;
-                        slot.frame.record.frame.stamp_ns = source.recorded.frame.stamp_ns;
-                        output_->Encode(source, slot.number, slot.frame);
-                        AddLostOf(source, slot.frame.record.lost);
-                      }}};
-      pipe.write = [&](std::size_t i) {
-        output_->Write(slots[i].frame);
-        folder_.Write(slots[i].frame.files, slots[i].frame.lines, slots[i].frame.record);
-      };
-      pipe.on_written = [&] { hooks_.on_progress(++num_done, survey_.range.num); };
-      hooks_.on_progress(num_done, survey_.range.num);
-      RunPipe(pipe);
-    });
+    std::vector<ConvertSlot> slots;
+    const auto take = [&](std::size_t i, std::uint32_t number) {
+      auto read = source_.Next();
+      if (!read) return false;
+      slots[i].number = number;
+      slots[i].read = std::move(*read);
+      return true;
+    };
+    const auto encode = [&](std::size_t i) {
+      ConvertSlot& slot = slots[i];
+      const SourceFrame source = std::exchange(slot.read, {})();
+      slot.frame = {};
+      slot.frame.record.frame.frame = slot.number;
+      slot.frame.record.frame.stamp_ns = source.recorded.frame.stamp_ns;
+      output_->Encode(source, slot.number, slot.frame);
+      AddLostOf(source, slot.frame.record.lost);
+    };
+    const auto write = [&](std::size_t i) {
+      output_->Write(slots[i].frame);
+      folder_.Write(slots[i].frame.files, slots[i].frame.lines, slots[i].frame.record);
+    };
+    MakeMissing({survey_.range, folder_.num_done(), choices_.num_threads, hooks_},
+                [&](std::size_t num_slots) { slots.resize(num_slots); }, take, {{false, encode}},
+                write);
   }
 
   /// What no format has a place for.
@@ -172,7 +167,6 @@ class RecordingConversion {
   const RunHooks& hooks_;
   SourceSurvey survey_;
   SourceFrames source_;
-  std::uint32_t next_ = 0;  ///< The number of the frame that is taken next.
   std::unique_ptr<ConvertOutput> output_;
   ConvertRunRecord run_;
   FrameFolder folder_;

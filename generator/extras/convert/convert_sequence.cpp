@@ -130,10 +130,7 @@ void EncodeConverted(const fs::path& source, const SequenceSpec& spec, SequenceS
   for (FrameFile& image : ImagesOf(source, spec, encoded.record, number, lines.frame.place)) {
     encoded.files.push_back(std::move(image));
   }
-  encoded.record.files.clear();
-  for (const FrameFile& file : encoded.files) {
-    encoded.record.files.push_back({file.name, ContentHash(file.bytes), file.bytes.size()});
-  }
+  encoded.record.files = KnownFilesOf(encoded.files);
   encoded.record.clouds_hash.clear();
   encoded.pose = ReadPoseRecord(lines.records.at(0).text, lines.records.at(0).place);
   encoded.objects_line = lines.records.at(1).text + "\n";
@@ -218,28 +215,18 @@ ConvertResult ConvertSequence(const ConvertChoices& choices, const RunHooks& hoo
   result.was_complete = directory.is_complete();
   result.changed = directory.changed();
   result.num_resumed = directory.num_done();
-  std::uint32_t num_done = directory.num_done();
-  hooks.on_progress(num_done, range.num);
-  WithFramePipe(choices.num_threads, [&](FramePipe& pipe) {
-    std::vector<SequenceSlot> slots(pipe.num_slots());
-    std::uint32_t next = 0;
-    const auto take = [&](SequenceSlot& slot) {
-      slot.lines = lines.Next().value();
-      slot.read = recording->Next().value();
-      slot.index = next++ - range.first;
-    };
-    pipe.begin = [&, first = range.first + num_done](std::size_t i) {
-      if (first == range.first + range.num) return false;
-      while (next < first) take(slots[i]);
-      if (next == range.first + range.num || hooks.is_stopped()) return false;
-      take(slots[i]);
-      return true;
-    };
-    pipe.stages = {{false, [&](std::size_t i) { EncodeConverted(source, spec, slots[i]); }}};
-    pipe.write = [&](std::size_t i) { directory.Write(slots[i].encoded); };
-    pipe.on_written = [&] { hooks.on_progress(++num_done, range.num); };
-    RunPipe(pipe);
-  });
+  std::vector<SequenceSlot> slots;
+  const auto take = [&](std::size_t i, std::uint32_t number) {
+    slots[i].lines = lines.Next().value();
+    slots[i].read = recording->Next().value();
+    slots[i].index = number - range.first;
+    return true;
+  };
+  MakeMissing(
+      {range, directory.num_done(), choices.num_threads, hooks},
+      [&](std::size_t num_slots) { slots.resize(num_slots); }, take,
+      {{false, [&](std::size_t i) { EncodeConverted(source, spec, slots[i]); }}},
+      [&](std::size_t i) { directory.Write(slots[i].encoded); });
   result.num_done = directory.num_done();
   if (!directory.is_complete() && result.num_done == range.num) directory.Finish();
   result.is_complete = directory.is_complete();

@@ -119,11 +119,8 @@ class SameSequence : public RecordingOutput {
                                      std::vector<FrameFile> files) const {
     EncodedFrame encoded;
     encoded.record = ReadFrameLine(lines.frame.text, lines.frame.place);
-    encoded.record.files.clear();
+    encoded.record.files = KnownFilesOf(files);
     encoded.record.certificate = inserted.certificate;
-    for (const FrameFile& file : files) {
-      encoded.record.files.push_back({file.name, ContentHash(file.bytes), file.bytes.size()});
-    }
     encoded.record.counts =
         CountsWith(encoded.record.counts, firings, inserted, spec_.files.labels);
     encoded.files = std::move(files);

@@ -45,15 +45,37 @@ std::vector<LineFileName> WithLedger(const FrameFolderSpec& spec) {
 
 }  // namespace
 
-void WithFramePipe(int num_threads, const std::function<void(FramePipe& pipe)>& work) {
-  const auto allowed = AllowThreads(num_threads);
-  tbb::task_arena arena(num_threads == 0 ? tbb::task_arena::automatic : num_threads);
+void MakeMissing(const MissingFrames& missing,
+                 const std::function<void(std::size_t num_slots)>& resize,
+                 const std::function<bool(std::size_t slot, std::uint32_t number)>& take,
+                 std::vector<FramePipe::Stage> stages,
+                 std::function<void(std::size_t slot)> write) {
+  const auto allowed = AllowThreads(missing.num_threads);
+  tbb::task_arena arena(missing.num_threads == 0 ? tbb::task_arena::automatic
+                                                 : missing.num_threads);
   FramePipe pipe;
   pipe.num_at_once = static_cast<std::size_t>(arena.max_concurrency()) + 1;
   // Whole frames of captures wait for the thread that edits their packets.
   pipe.num_waiting = 2;
   pipe.execute = [&](const std::function<void()>& run) { arena.execute(run); };
-  work(pipe);
+  const auto& [range, num_before, num_threads, hooks] = missing;
+  resize(pipe.num_slots());
+  std::uint32_t next = 0;
+  pipe.begin = [&](std::size_t slot) {
+    const std::uint32_t first = range.first + num_before;
+    if (first == range.first + range.num) return false;
+    while (next < first) {
+      if (!take(slot, next++)) return false;
+    }
+    if (next == range.first + range.num || hooks.is_stopped()) return false;
+    return take(slot, next++);
+  };
+  pipe.stages = std::move(stages);
+  pipe.write = std::move(write);
+  std::uint32_t num_done = num_before;
+  pipe.on_written = [&] { hooks.on_progress(++num_done, range.num); };
+  hooks.on_progress(num_done, range.num);
+  RunPipe(pipe);
 }
 
 FrameFolder::FrameFolder(FrameFolderSpec spec)
@@ -91,11 +113,10 @@ void FrameFolder::WriteFixed(const FixedFile& file) {
   WriteFixedFile(spec_.directory, file);
 }
 
-void FrameFolder::WriteFiles(const std::vector<FrameFile>& files, FrameRecord& frame) const {
+void FrameFolder::WriteFiles(const std::vector<FrameFile>& files) const {
   for (const FrameFile& file : files) {
     MakeFolders((spec_.directory / file.name).parent_path());
     WriteFileWhole(spec_.directory / file.name, file.bytes);
-    frame.files.push_back({file.name, ContentHash(file.bytes), file.bytes.size()});
   }
 }
 

@@ -36,9 +36,23 @@ struct FrameFolderSpec {
   bool is_known = false;  ///< Whether the folder is known to be of this run, whatever it says.
 };
 
-/// Threads and slots of a pipe for frames that are made of those of a recording.
-/// @param work Gets the pipe to complete and run.
-void WithFramePipe(int num_threads, const std::function<void(FramePipe& pipe)>& work);
+/// Which frames of a recording are still to be made into others, and who is told.
+struct MissingFrames {
+  InsertRange range;         ///< All that are wanted, numbered as in the recording.
+  std::uint32_t num_done{};  ///< How many of these are there.
+  int num_threads{};         ///< 0 = one for each core.
+  const RunHooks& hooks;
+};
+
+/// Lets the missing frames go through a pipe (FramePipe) whose slots are numbered from 0.
+/// @param resize Makes memory for so many slots.
+/// @param take Reads the recording's next frame, of this number, into a slot; returns false at its
+///   end. The frames before the missing ones are taken, too.
+void MakeMissing(const MissingFrames& missing,
+                 const std::function<void(std::size_t num_slots)>& resize,
+                 const std::function<bool(std::size_t slot, std::uint32_t number)>& take,
+                 std::vector<FramePipe::Stage> stages,
+                 std::function<void(std::size_t slot)> write);
 
 /// The folder that `insert` or `convert` writes, complete or unfinished. A frame counts as done
 /// when its line in the ledger is whole and its files and lines have the hashes that this line
@@ -90,7 +104,8 @@ class FrameFolder {
   void Write(const std::vector<FrameFile>& files,
              const std::vector<std::string>& lines,
              Entry entry) {
-    WriteFiles(files, entry.frame);
+    WriteFiles(files);
+    entry.frame.files = KnownFilesOf(files);
     lines_.Append(lines, [&](std::string records_hash) {
       entry.frame.records_hash = std::move(records_hash);
       return HashedRecordLine(entry);
@@ -115,7 +130,7 @@ class FrameFolder {
   void Open(std::uint32_t num_kept);
   /// Removes what was written if no frame was.
   void Abandon() noexcept;
-  void WriteFiles(const std::vector<FrameFile>& files, FrameRecord& frame) const;
+  void WriteFiles(const std::vector<FrameFile>& files) const;
   [[nodiscard]] NamedValues<std::string> HashesOfWhole(const std::vector<std::string>& others);
   void RemoveUnfinished(const std::vector<std::string>& own) const;
 

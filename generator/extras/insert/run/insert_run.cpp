@@ -226,30 +226,21 @@ class InsertRun {
 
   void MakeFrames() {
     if (inserter_.certify()) certificates_ = CertificatesSoFar();
-    std::uint32_t num_done = folder_.num_done();
-    WithFramePipe(num_threads_, [&](FramePipe& pipe) {
-      std::vector<FrameOnWay> slots(pipe.num_slots());
-      std::uint32_t next = 0;
-      pipe.begin = [&, first = range_.first + num_done](std::size_t i) {
-        for (; next < first; ++next) {
-          if (!recording_.Next()) return false;
-        }
-        if (next == range_.first + range_.num || hooks_.is_stopped()) return false;
-        auto reader = recording_.Next();
-        if (!reader) return false;
-        slots[i].frame = next++;
-        slots[i].read = std::move(*reader);
-        return true;
-      };
-      pipe.stages = {
-          {false, [&](std::size_t i) { slots[i].firings = finder_.Find(ReadFrame(slots[i])); }},
-          {true, [&](std::size_t i) { Insert(slots[i]); }},
-          {false, [&](std::size_t i) { Encode(slots[i]); }}};
-      pipe.write = [&](std::size_t i) { Write(slots[i]); };
-      pipe.on_written = [&] { hooks_.on_progress(++num_done, range_.num); };
-      hooks_.on_progress(num_done, range_.num);
-      RunPipe(pipe);
-    });
+    std::vector<FrameOnWay> slots;
+    const auto take = [&](std::size_t i, std::uint32_t number) {
+      auto reader = recording_.Next();
+      if (!reader) return false;
+      slots[i].frame = number;
+      slots[i].read = std::move(*reader);
+      return true;
+    };
+    MakeMissing(
+        {range_, folder_.num_done(), num_threads_, hooks_},
+        [&](std::size_t num_slots) { slots.resize(num_slots); }, take,
+        {{false, [&](std::size_t i) { slots[i].firings = finder_.Find(ReadFrame(slots[i])); }},
+         {true, [&](std::size_t i) { Insert(slots[i]); }},
+         {false, [&](std::size_t i) { Encode(slots[i]); }}},
+        [&](std::size_t i) { Write(slots[i]); });
   }
 
   [[nodiscard]] RecordedFrame ReadFrame(FrameOnWay& way) const {
