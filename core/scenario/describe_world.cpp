@@ -127,6 +127,14 @@ namespace {
 
 }  // namespace
 
+void Describe(Archive& a, BallastSpec& s) {
+  a.Optional("below_sleepers_m", s.below_sleepers_m,
+             "How much lower its top is than the sleepers' tops; below 0, it covers them.",
+             Within(-0.1, 0.2));
+  a.Optional("grain_sigma_m", s.grain_sigma_m, "Standard deviation of the heights of its stones.",
+             Within(0, 0.1));
+}
+
 void Describe(Archive& a, VegetationSpec& s) {
   a.Optional("trees_per_hectare", s.trees_per_hectare, "0 = none.", Within(0, 5000));
   a.Optional("tree_min_distance_m", s.tree_min_distance_m,
@@ -201,6 +209,7 @@ void Describe(Archive& a, WorldSpec& s) {
              "File of railcast-generate survey, whose surfaces and wires take the place of ground, "
              "tracks, contact line and plants.",
              ExistingFile());
+  a.OptionalUnless("ballast", s.ballast, {}, "The bed of all tracks; absent = the defaults.");
   a.OptionalUnless("clear_space", s.clear_space, {},
                    "What must be clear of structures: half widths on straight track without cant, "
                    "linear between the heights; absent = the outline of EBO, Anlage 2.",

@@ -121,6 +121,7 @@ void Describe(Archive& a, CatenarySpec& s);
 void Describe(Archive& a, ElevationSpec& s);
 void Describe(Archive& a, ReliefSpec& s);
 void Describe(Archive& a, TerrainSpec& s);
+void Describe(Archive& a, BallastSpec& s);
 void Describe(Archive& a, VegetationSpec& s);
 void Describe(Archive& a, RecordingWorldSpec& s);
 void Describe(Archive& a, HalfWidth& s);

@@ -169,6 +169,14 @@ template <>
 inline constexpr auto kEnumNames<SceneDetail> = std::to_array<EnumName<SceneDetail>>(
     {{SceneDetail::kAuto, "auto"}, {SceneDetail::kFull, "full"}});
 
+/// The ballast of all tracks.
+struct BallastSpec {
+  double below_sleepers_m = 0.020;  ///< Its top is so much lower than the sleepers' tops.
+  double grain_sigma_m = 0.020;     ///< Standard deviation of the heights of its stones.
+
+  bool operator==(const BallastSpec&) const = default;
+};
+
 /// Trees, bushes and grass beside the tracks.
 struct VegetationSpec {
   double trees_per_hectare = 40.0;
@@ -239,6 +247,7 @@ struct WorldSpec {
   /// File of a survey (core/extras/survey/survey_file.h), whose surfaces and wires take the place
   /// of ground, tracks, contact line and plants; absent = none.
   std::optional<std::string> survey{};
+  BallastSpec ballast{};
   /// What must be clear of structures about straight track without cant, from the lowest row
   /// upwards; empty = kClearHalfWidths (core/rail/clearance/clear_space.h).
   std::vector<HalfWidth> clear_space{};

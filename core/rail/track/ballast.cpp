@@ -27,9 +27,6 @@ constexpr double kCoarseBallastTolerances_m[kMostCoarse] = {0.005, 0.05};
 /// The coarsest form: the distance of its rows, as a multiple of that of the others.
 constexpr double kCoarsestRows = 15.0;
 
-/// Standard deviation of the heights: sigma_z of docs/physics.md 7.1.
-constexpr double kGrainSigma_m = 0.020;
-
 /// Depth below the ground to which the sheet continues, in addition to four sigmas of the ground's
 /// roughness.
 constexpr double kBelowGround_m = 0.1;
@@ -99,7 +96,7 @@ class BallastSheet {
     const double formation_m = section.FormationHeight_m(d_m);
     const double ballast_m = section.BallastHeight_m(d_m);
     const double grain_m =
-        kGrainSigma_m / NoiseField::kLatticeSigma *
+        context_.spec.ballast.grain_sigma_m / NoiseField::kLatticeSigma *
         grain_.At(s_m / kBallastGridAlong_m,
                   static_cast<double>(columns_.first + static_cast<std::int64_t>(column)));
     // Cells at the edge of the sheet have corners beyond the end of the ballast; keep them in the

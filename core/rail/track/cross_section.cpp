@@ -12,7 +12,6 @@
 namespace railcast {
 namespace {
 
-constexpr double kBallastBelowSleeperTop_m = 0.020;
 constexpr double kBallastSlope = 1.0 / 1.5;
 
 /// Depth and extent of the hollow in the ballast around a sleeper.
@@ -74,6 +73,7 @@ SleeperSeat SeatOf(SleeperType sleeper) {
 CrossSection::CrossSection(const ChunkContext& context, double s_m)
     : s_m_(s_m),
       shift_m_(RailShift_m(context.spec.alignment)),
+      below_sleepers_m_(context.spec.ballast.below_sleepers_m),
       sleeper_closeness_(ClosenessToASleeper(s_m)) {
   Check(!context.spec.tracks.empty(), "a line has a track");
   const AxisPoint axis = context.alignment.At(s_m);
@@ -153,8 +153,7 @@ double CrossSection::BallastHeightOf(const TrackHere& track, double d_m) const {
   const double sleeper_fraction =
       std::clamp((kShoulder_m - on_standard_m) / (kShoulder_m - kSleeperHalfLength_m), 0.0, 1.0);
   const double top_m = track.seat.top_m - (1.0 - seat_fraction) * track.seat.middle_drop_m -
-                       kBallastBelowSleeperTop_m -
-                       sleeper_fraction * sleeper_closeness * kSleeperHollow_m;
+                       below_sleepers_m_ - sleeper_fraction * sleeper_closeness * kSleeperHollow_m;
   return track.height_m + top_m * std::cos(track.cant_rad) + on_top_m * std::sin(track.cant_rad) -
          beyond_m * kBallastSlope;
 }

@@ -28,9 +28,9 @@ struct SleeperSeat {
 /// vertical, relative to the axis' top of rail.
 ///
 /// Ballast (docs/physics.md 7.1): its top is 20 mm below the sleeper's top and parallel to it,
-/// extends 0.45 m beyond the sleeper's end and then falls at 1:1.5. Where the ballast of several
-/// tracks overlaps, the highest counts. Around a sleeper, the top is another 20 mm lower, so that
-/// grains do not cover the sleeper.
+/// extends 0.45 m beyond the sleeper's end and then falls at 1:1.5; BallastSpec has it higher or
+/// lower. Where the ballast of several tracks overlaps, the highest counts. Around a sleeper, the
+/// top is another 20 mm lower, so that grains do not cover the sleeper.
 class CrossSection {
  public:
   /// Below the axis' top of rail; gives 0.30 m of ballast under a concrete sleeper.
@@ -87,6 +87,7 @@ class CrossSection {
   Transform chunk_from_axis_;  ///< Level: x along the heading, y left, z up.
   double s_m_;
   double shift_m_;                 ///< Shift of rails, sleepers' ends and shoulders (RailShift_m).
+  double below_sleepers_m_;        ///< How much lower the ballast's top is than the sleepers'.
   double sleeper_closeness_;       ///< For tracks parallel to the alignment.
   std::vector<TrackHere> tracks_;  ///< From right to left.
   std::vector<std::size_t> ballasted_;  ///< Tracks that have ballast.

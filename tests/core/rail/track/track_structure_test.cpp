@@ -204,6 +204,17 @@ TEST(AddBallast, LiesTwentyMillimetresBelowTheSleepersTopWithItsGrain) {
   EXPECT_NEAR(heights.sigma_m, 0.020, five_errors_m / std::sqrt(2.0));
 }
 
+TEST(AddBallast, LiesAndSpreadsAsTheWorldSays) {
+  WorldSpec spec = StraightLine(300.0);
+  spec.ballast = {.below_sleepers_m = -0.015, .grain_sigma_m = 0.008};
+  const Heights heights = HeightsWhere(TestLine(spec), [](double s_m, double d_m) {
+    return DistanceToASleeper(s_m) > 0.19 && std::abs(d_m) > 0.62 && std::abs(d_m) < 1.74;
+  });
+  const double five_errors_m = 5.0 * 0.008 / std::sqrt(heights.count);
+  EXPECT_NEAR(heights.mean_m, SeatOf(SleeperType::kConcrete).top_m + 0.015, five_errors_m);
+  EXPECT_NEAR(heights.sigma_m, 0.008, five_errors_m / std::sqrt(2.0));
+}
+
 TEST(AddBallast, LeavesSleepersUncovered) {
   const TestLine line(StraightLine(300.0));
   const Heights heights = HeightsWhere(line, [](double s_m, double d_m) {
