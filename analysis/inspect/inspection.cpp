@@ -110,6 +110,7 @@ std::vector<InspectedRing> LookAtFrame(const RecordedFrame& recorded, RecordingL
     inspection.world_from_sensor.push_back(frame.world_from_sensor);
     inspection.pose_stamps_ns.push_back(frame.stamp_ns);
   }
+  if (recorded.why_no_ranges.empty()) inspection.neighbours.Add(recorded);
   std::vector<InspectedRing> rings;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     if (!std::isnan(frame.x[slot])) AddPoint(recorded, slot, inspection, rings);

@@ -11,6 +11,7 @@
 
 #include "analysis/estimate/streams.h"
 #include "analysis/report/report.h"
+#include "analysis/stats/neighbour_noise.h"
 #include "core/io/recording/found_sensor.h"
 #include "railcast/frame.h"
 #include "railcast/io/recording.h"
@@ -109,7 +110,8 @@ struct RecordingLook {
   /// those of the first twenty are all odd.
   SensorSearch sensor;
   std::vector<InspectedFrame> frames;
-  double range_step_m{};  ///< Median of RangeStep_m().
+  double range_step_m{};      ///< Median of RangeStep_m().
+  NeighbourNoise neighbours;  ///< Frames that are grids and know their ranges add to it.
   InspectedValues intensity;
   LogHistogram range_m;
   std::uint64_t num_near{};  ///< Points nearer than kNear_m.

@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "analysis/inspect/inspection.h"
 #include "analysis/report/cell_text.h"
+#include "analysis/stats/bins.h"
 #include "core/base/join.h"
 #include "core/base/median.h"
 #include "core/base/text.h"
@@ -190,6 +192,21 @@ Section RingsSection(const RecordingLook& seen) {
   return findings.MakeSection();
 }
 
+/// The least of what neighbouring firings say of the noise, by range.
+void AddNoise(const NeighbourNoise& noise, Findings& findings) {
+  constexpr std::uint64_t kLeast = 1'000;
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < noise.bins().size(); ++i) {
+    if (noise.bins()[i].num() < kLeast) continue;
+    if (!best || noise.Sigma_m(i).value < noise.Sigma_m(*best).value) best = i;
+  }
+  if (!best) return;
+  const Span span_m = RangeBins().span(*best);
+  findings.Add("noise of ranges, at most", ShortText(1e3 * noise.Sigma_m(*best).value) + " mm",
+               "at " + ShortText(span_m.low) + " to " + ShortText(span_m.high) +
+                   " m, by second differences along rings; more if the sensor averages neighbours");
+}
+
 /// What the intensities are, as far as their values tell.
 std::string ScaleOf(const InspectedValues& intensity, const RecordingInfo& info) {
   constexpr double kWhite = 1.5;  // Retroreflectors are brighter than white.
@@ -218,6 +235,7 @@ Section ValuesSection(const RecordingLook& seen, const RecordingInfo& info) {
       findings.Add("step of ranges", ShortText(1e3 * seen.range_step_m) + " mm",
                    "found by the differences of neighbouring points");
     }
+    AddNoise(seen.neighbours, findings);
   }
   const InspectedValues& intensity = seen.intensity;
   if (intensity.num > 0) {

@@ -71,6 +71,7 @@ void Statistics::Add(const RecordedFrame& recorded, const ScanTable* scan) {
   holes.Add(recorded);
   density.Add(recorded, scan);
   noise.Add(recorded, patches);
+  neighbour_noise.Add(recorded);
   intensity.Add(recorded, patches);
   coverage.Add(recorded, scan);
   classes.Add(recorded);

@@ -15,6 +15,7 @@
 #include "analysis/estimate/estimate.h"
 #include "analysis/stats/difficulty.h"
 #include "analysis/stats/holes.h"
+#include "analysis/stats/neighbour_noise.h"
 #include "analysis/stats/range_noise.h"
 #include "analysis/stats/sums.h"
 #include "core/io/cloud/track_fields.h"
@@ -294,6 +295,7 @@ struct Statistics {
   Holes holes;
   Density density;
   Noise noise;
+  NeighbourNoise neighbour_noise;
   TemporalNoise temporal_noise;
   Intensity intensity;
   Coverage coverage;
@@ -308,8 +310,9 @@ struct Statistics {
   /// @param scan Of the frame; null if it is not a grid.
   void Add(const RecordedFrame& recorded, const ScanTable* scan);
   static auto Sums(auto& of) {
-    return std::tie(of.dropout, of.holes, of.density, of.noise, of.temporal_noise, of.intensity,
-                    of.coverage, of.classes, of.objects, of.difficulty, of.gauge, of.velocity);
+    return std::tie(of.dropout, of.holes, of.density, of.noise, of.neighbour_noise,
+                    of.temporal_noise, of.intensity, of.coverage, of.classes, of.objects,
+                    of.difficulty, of.gauge, of.velocity);
   }
   /// Drops what is counted by ring: rings of different sensors have nothing in common but their
   /// numbers.

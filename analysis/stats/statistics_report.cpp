@@ -137,7 +137,12 @@ void AddSections(const Statistics& statistics,
         MakeOsdarBalanceSection(statistics.difficulty, sources.front().labels));
   }
   add(statistics.gauge, names);
-  if (has_ranges) report.sections.push_back(statistics.noise.MakeSection());
+  if (has_ranges) {
+    Section& noise = report.sections.emplace_back(statistics.noise.MakeSection());
+    if (!statistics.neighbour_noise.bins().empty()) {
+      noise.tables.push_back(statistics.neighbour_noise.MakeTable());
+    }
+  }
   if (certificate) report.sections.push_back(MakeCertificateSection(*certificate));
   if (has_ranges) report.sections.push_back(statistics.temporal_noise.MakeSection());
   add(statistics.velocity);

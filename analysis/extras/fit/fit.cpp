@@ -177,7 +177,7 @@ void AddNoiseBins(const RecordedTrials& recorded,
       residuals_m.push_back(static_cast<double>(trials[order[k]].residual_m));
     }
     sum.fitted_m = std::sqrt(sum.fitted_m);
-    sum.sigma_m = NoiseOf(std::move(residuals_m), recorded.step_m, result.is_from_turn_to_turn);
+    sum.sigma_m = NoiseOf(std::move(residuals_m), recorded.step_m, result.noise_from);
     result.noise_by_range.push_back(sum);
   }
 }
@@ -204,7 +204,7 @@ void WidenBySteps(const Estimate& sigma_m, double step_m, FittedParameter& param
 
 void FitNoise(RecordedTrials& trials, const FitSettings& settings, FitResult& result) {
   const ChannelBiases biases = TakeOutChannels(trials);
-  result.is_from_turn_to_turn = TakeChanges(trials);
+  result.noise_from = TakeLeastNoise(trials);
   const bool knows_signal = settings.has_reflectances && settings.range_at_10_percent_m;
   if (settings.is_physical && knows_signal) {
     std::erase_if(trials.noise, [](const NoiseTrial& trial) { return !(trial.intensity > 0.0F); });
@@ -214,16 +214,14 @@ void FitNoise(RecordedTrials& trials, const FitSettings& settings, FitResult& re
     residuals_m.push_back(static_cast<double>(trial.residual_m));
     ranges_m.push_back(static_cast<double>(trial.range_m));
   }
-  const Estimate sigma_m =
-      NoiseOf(std::move(residuals_m), trials.step_m, result.is_from_turn_to_turn);
+  const Estimate sigma_m = NoiseOf(std::move(residuals_m), trials.step_m, result.noise_from);
   const std::string of_steps = StepRemark(trials.step_m);
   result.parameters.push_back({"", "Noise, whatever range and signal", "m", sigma_m,
                                sigma_m.is_enough() ? of_steps : "not identified: too few points"});
   std::vector<NoiseTrial> noise_trials = trials.noise;
   const std::size_t num_before = result.parameters.size();
   if (sigma_m.is_enough() && !of_steps.empty()) {
-    TakeOutSteps(trials, sigma_m.value, result.is_from_turn_to_turn, settings.is_physical,
-                 noise_trials);
+    TakeOutSteps(trials, sigma_m.value, result.noise_from, settings.is_physical, noise_trials);
   }
   if (settings.is_physical) {
     std::vector<double> inverse_snr;

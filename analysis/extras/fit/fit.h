@@ -31,24 +31,29 @@ struct ChannelBiases {
 /// residuals stay as they are.
 [[nodiscard]] ChannelBiases TakeOutChannels(RecordedTrials& trials);
 
-/// Takes the changes from frame to frame for the residuals, where they are at least 500 and
-/// smaller: then the sensor stood, or moved by less than the surfaces' roughness, which is in the
-/// residuals alone. Points without a change are left out.
-/// @returns Whether it did.
-bool TakeChanges(RecordedTrials& trials);
+/// What the noise is measured by.
+enum class NoiseFrom : std::uint8_t {
+  kPieces,      ///< The distances from the pieces' planes; roughness counts as noise.
+  kNeighbours,  ///< The second differences along the rings; roughness between neighbours counts.
+  kTurns,       ///< The changes from frame to frame of a standing sensor; no roughness counts.
+};
 
-/// The robust standard deviation of residuals: of those from turn to turn, or of those about
-/// pieces. Where ranges come in steps, it is that before rounding.
-[[nodiscard]] Estimate NoiseOf(std::vector<double> residuals_m,
-                               double step_m,
-                               bool is_from_turn_to_turn);
+/// Takes for the residuals what has least besides noise. Where there are at least 500 changes from
+/// frame to frame that are smaller than the residuals, it is these: then the sensor stood, or moved
+/// by less than the surfaces' roughness. Else it is the second differences, if there are as many
+/// and their interval ends below the residuals' scatter. Points without either are left out.
+NoiseFrom TakeLeastNoise(RecordedTrials& trials);
+
+/// The robust standard deviation of residuals. Where ranges come in steps, it is that before
+/// rounding; of second differences, whose three ranges are all rounded, a part of it stays.
+[[nodiscard]] Estimate NoiseOf(std::vector<double> residuals_m, double step_m, NoiseFrom from);
 
 /// Takes the steps of ranges out of the residuals, so that models can be fitted to them: spreads
 /// each over its step, and scales all so that fits of a constant give that before rounding.
 /// @param is_physical Whether FitSignalNoise() follows, else FitLinearNoise().
 void TakeOutSteps(const RecordedTrials& trials,
                   double sigma_m,
-                  bool is_from_turn_to_turn,
+                  NoiseFrom from,
                   bool is_physical,
                   std::vector<NoiseTrial>& noise);
 
@@ -150,8 +155,7 @@ struct FitResult {
   std::vector<ChannelBias> channels;
   std::vector<NoiseBin> noise_by_range;
   RandomLoss loss;
-  bool
-      is_from_turn_to_turn{};  ///< Whether the noise is, and not that about pieces (TakeChanges()).
+  NoiseFrom noise_from{};  ///< As TakeLeastNoise() found it.
 };
 
 /// 1 / (2 SNR) of each trial. The SNR is known at the data sheet's range; it is proportional to the

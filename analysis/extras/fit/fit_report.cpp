@@ -197,8 +197,11 @@ Report MakeFitReport(const FitReportInput& input,
   report.facts.emplace_back("Frames", NumberText(trials.num_frames));
   report.facts.emplace_back("Flat pieces of surface", NumberText(trials.num_pieces));
   report.headlines = Headlines(result);
-  Section section = SectionOf(
-      kFitWords, "fit", {{"rung", rung}, {"is_from_turn_to_turn", result.is_from_turn_to_turn}});
+  Section section = SectionOf(kFitWords, "fit",
+                              {{"rung", rung},
+                               {"from_turns", result.noise_from == NoiseFrom::kTurns},
+                               {"from_neighbours", result.noise_from == NoiseFrom::kNeighbours},
+                               {"from_pieces", result.noise_from == NoiseFrom::kPieces}});
   section.charts = MakeCharts(trials, result);
   section.tables = {ParameterTable(input, result)};
   report.sections.push_back(std::move(section));

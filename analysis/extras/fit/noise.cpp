@@ -136,9 +136,11 @@ Estimate NoiseInterval(const ScaleFit& fit, Eigen::Index place, std::uint64_t nu
   return {value, std::max(0.0, value - half), value + half, num};
 }
 
-// Changes from turn to turn are differences of two ranges, divided by sqrt(2).
-double ResidualStep_m(double step_m, bool is_from_turn_to_turn) {
-  return is_from_turn_to_turn ? step_m / std::numbers::sqrt2 : step_m;
+// Changes from turn to turn are differences of two ranges, divided by sqrt(2), those along a ring
+// of three, divided by sqrt(6).
+double ResidualStep_m(double step_m, NoiseFrom from) {
+  if (from == NoiseFrom::kPieces) return step_m;
+  return step_m / std::sqrt(from == NoiseFrom::kTurns ? 2.0 : 6.0);
 }
 
 // Converts an estimate of a square to its root.
@@ -184,20 +186,21 @@ ChannelBiases TakeOutChannels(RecordedTrials& trials) {
   return result;
 }
 
-Estimate NoiseOf(std::vector<double> residuals_m, double step_m, bool is_from_turn_to_turn) {
+Estimate NoiseOf(std::vector<double> residuals_m, double step_m, NoiseFrom from) {
   if (!(step_m > 0.0)) return RobustScale(residuals_m);
-  RoundedSamples samples(ResidualStep_m(step_m, is_from_turn_to_turn));
+  RoundedSamples samples(ResidualStep_m(step_m, from));
   for (const double residual_m : residuals_m) samples.Add(residual_m);
-  return RobustScale(samples, is_from_turn_to_turn ? RoundedValues::kBoth : RoundedValues::kOne);
+  return RobustScale(samples,
+                     from == NoiseFrom::kPieces ? RoundedValues::kOne : RoundedValues::kBoth);
 }
 
 void TakeOutSteps(const RecordedTrials& trials,
                   double sigma_m,
-                  bool is_from_turn_to_turn,
+                  NoiseFrom from,
                   bool is_physical,
                   std::vector<NoiseTrial>& noise) {
   constexpr double kGolden = 0.6180339887498949;
-  const double step_m = ResidualStep_m(trials.step_m, is_from_turn_to_turn);
+  const double step_m = ResidualStep_m(trials.step_m, from);
   for (std::size_t i = 0; i < noise.size(); ++i) {
     const double turn = kGolden * static_cast<double>(i);
     noise[i].residual_m += static_cast<float>(step_m * (turn - std::floor(turn) - 0.5));
@@ -210,20 +213,33 @@ void TakeOutSteps(const RecordedTrials& trials,
   for (NoiseTrial& trial : noise) trial.residual_m *= static_cast<float>(scale);
 }
 
-bool TakeChanges(RecordedTrials& trials) {
+NoiseFrom TakeLeastNoise(RecordedTrials& trials) {
   constexpr std::size_t kLeast = 500;
-  std::vector<double> residuals_m, changes_m;
-  for (const NoiseTrial& trial : trials.noise) {
-    if (!std::isfinite(trial.change_m)) continue;
-    residuals_m.push_back(static_cast<double>(trial.residual_m));
-    changes_m.push_back(static_cast<double>(trial.change_m));
+  const auto take = [&](float NoiseTrial::*sample_m, NoiseFrom from, const auto& is_less) {
+    std::vector<double> samples_m, residuals_m;
+    for (const NoiseTrial& trial : trials.noise) {
+      if (!std::isfinite(trial.*sample_m)) continue;
+      samples_m.push_back(static_cast<double>(trial.*sample_m));
+      residuals_m.push_back(static_cast<double>(trial.residual_m));
+    }
+    if (samples_m.size() < kLeast) return false;
+    const Estimate noise_m = NoiseOf(std::move(samples_m), trials.step_m, from);
+    const Estimate about_m = NoiseOf(std::move(residuals_m), trials.step_m, NoiseFrom::kPieces);
+    if (!is_less(noise_m, about_m)) return false;
+    std::erase_if(trials.noise,
+                  [&](const NoiseTrial& trial) { return std::isnan(trial.*sample_m); });
+    for (NoiseTrial& trial : trials.noise) trial.residual_m = trial.*sample_m;
+    return true;
+  };
+  if (take(&NoiseTrial::change_m, NoiseFrom::kTurns,
+           [](const Estimate& a, const Estimate& b) { return a.value < b.value; })) {
+    return NoiseFrom::kTurns;
   }
-  if (changes_m.size() < kLeast) return false;
-  const double changed_m = NoiseOf(std::move(changes_m), trials.step_m, true).value;
-  if (!(changed_m < NoiseOf(std::move(residuals_m), trials.step_m, false).value)) return false;
-  std::erase_if(trials.noise, [](const NoiseTrial& trial) { return std::isnan(trial.change_m); });
-  for (NoiseTrial& trial : trials.noise) trial.residual_m = trial.change_m;
-  return true;
+  if (take(&NoiseTrial::bend_m, NoiseFrom::kNeighbours,
+           [](const Estimate& a, const Estimate& b) { return a.high < b.value; })) {
+    return NoiseFrom::kNeighbours;
+  }
+  return NoiseFrom::kPieces;
 }
 
 double SignalNoise::At(const NoiseTrial& trial, double inverse_snr) const {

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "analysis/stats/holes.h"
+#include "analysis/stats/neighbour_noise.h"
 #include "analysis/stats/plane_patches.h"
 #include "analysis/stats/range_noise.h"
 #include "core/io/recording/column_finder.h"
@@ -69,14 +70,25 @@ double LaterResidual_m(const FlatPiece& piece,
   return OnPiece(next.frame, later, piece).residual_m;
 }
 
+float Bend_m(const RecordedFrame& recorded, std::size_t slot) {
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  const Frame& frame = recorded.frame;
+  // Only of first returns are the neighbours' first returns the same surface.
+  if (!recorded.is_grid || slot % frame.returns != 0) return kNone;
+  const auto bend_m =
+      SecondDifference_m(recorded, slot / frame.width(), slot % frame.width() / frame.returns);
+  return bend_m ? static_cast<float>(*bend_m) : kNone;
+}
+
 // Pieces overlap where the frame has few flat places. A point belongs to the first of its pieces,
 // so that none is counted twice and pieces are independent, as the intervals take them to be.
 template <typename Change>
-void TakeNoise(const Frame& frame,
+void TakeNoise(const RecordedFrame& recorded,
                const FlatPiece& piece,
                const Change& change_m,
                std::vector<bool>& is_taken,
                RecordedTrials& trials) {
+  const Frame& frame = recorded.frame;
   const auto num = static_cast<double>(piece.slots.size());
   const double grow = std::sqrt(num / (num - 3.0));
   for (const std::size_t slot : piece.slots) {
@@ -88,6 +100,7 @@ void TakeNoise(const Frame& frame,
                             .slant_m_per_rad = static_cast<float>(at.range_m * tangent),
                             .residual_m = static_cast<float>(grow * at.residual_m),
                             .change_m = change_m(slot, at.residual_m),
+                            .bend_m = Bend_m(recorded, slot),
                             .intensity = frame.intensity[slot],
                             .piece = trials.num_pieces,
                             .channel = frame.ring[slot]});
@@ -173,7 +186,7 @@ RecordedTrials TakeTrials(const RecordedFrame& recorded, const RecordedFrame* ne
       const double later_m = LaterResidual_m(piece, slot, recorded.frame, *scan, *next_frame);
       return static_cast<float>((later_m - residual_m) / std::numbers::sqrt2);
     };
-    TakeNoise(recorded.frame, piece, change_m, is_taken, trials);
+    TakeNoise(recorded, piece, change_m, is_taken, trials);
   }
   return trials;
 }

@@ -25,6 +25,10 @@ struct NoiseTrial {
   /// its mean square is that of the noise, without the surface's roughness. NaN where there is no
   /// such point, or the sensor is known to have moved.
   float change_m = std::numeric_limits<float>::quiet_NaN();
+  /// The second difference of the ranges along the ring (SecondDifference_m()), whose mean square
+  /// is at most that of the noise and of what roughness bends between neighbours. NaN where there
+  /// is none.
+  float bend_m = std::numeric_limits<float>::quiet_NaN();
   float intensity{};      ///< As recorded.
   std::uint32_t piece{};  ///< Points of one piece share its number.
   std::uint16_t channel{};

@@ -170,6 +170,7 @@ void PlaneFigures::AddNoise(const RecordedFrame& masked,
                             std::uint32_t turn) {
   // The places where flat pieces are looked for follow from the index; one would give too few.
   constexpr std::uint32_t kLooks = 6;
+  neighbours.Add(masked);
   RecordedFrame looked = masked;
   for (std::uint32_t look = 0; look < kLooks; ++look) {
     looked.frame.index = kLooks * turn + look;

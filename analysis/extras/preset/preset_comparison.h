@@ -12,6 +12,7 @@
 #include "analysis/estimate/streams.h"
 #include "analysis/report/report.h"
 #include "analysis/stats/holes.h"
+#include "analysis/stats/neighbour_noise.h"
 #include "analysis/stats/range_noise.h"
 #include "core/io/recording/scan_table.h"
 #include "core/io/recording/turn_noise.h"
@@ -177,13 +178,14 @@ struct PlaneFigures {
   /// The share of holes over all bins together.
   [[nodiscard]] double HoleShare() const;
   Noise noise;
+  NeighbourNoise neighbours;
   TemporalNoise temporal;
   std::map<PlaneCell, CellPoints> intensities;
 
   /// Adds the firings and intensities of a turn; points of other firings than the planes' are left
   /// out. Intensities are those of this turn alone.
   void Add(const RecordedFrame& masked, const SeenPlanes& seen);
-  /// Adds the noise about flat pieces of a turn's points.
+  /// Adds the noise about flat pieces of a turn's points, and that along its rings.
   void AddNoise(const RecordedFrame& masked, const SeenPlanes& seen, std::uint32_t turn);
 };
 

@@ -24,6 +24,11 @@ Cell PlaneSigmaCell(const Noise& noise, std::size_t bin) {
   return Scaled(noise.planes()[bin].RobustRangeSigma_m(), kPresetMm);
 }
 
+Cell NeighbourSigmaCell(const NeighbourNoise& noise, std::size_t bin) {
+  if (bin >= noise.bins().size()) return NotEnough(0);
+  return Scaled(noise.Sigma_m(bin), kPresetMm);
+}
+
 Cell TemporalSigmaCell(const TemporalNoise& noise, std::size_t bin) {
   if (bin >= noise.bins().size()) return NotEnough(0);
   return Scaled(noise.bins()[bin].RobustSigma_m(), kPresetMm);
@@ -35,11 +40,12 @@ Table RangeTable(const PresetComparison& comparison) {
   const PlaneFigures& simulated = comparison.simulated;
   for (std::size_t i = 0; i < recorded.firings.size(); ++i) {
     if (recorded.num_points(i) == 0) continue;
-    table.rows.push_back({RangeBins().span(i), recorded.num_points(i), simulated.num_points(i),
-                          HoleCell(recorded, i), HoleCell(simulated, i),
-                          PlaneSigmaCell(recorded.noise, i), PlaneSigmaCell(simulated.noise, i),
-                          TemporalSigmaCell(recorded.temporal, i),
-                          TemporalSigmaCell(simulated.temporal, i)});
+    table.rows.push_back(
+        {RangeBins().span(i), recorded.num_points(i), simulated.num_points(i),
+         HoleCell(recorded, i), HoleCell(simulated, i), PlaneSigmaCell(recorded.noise, i),
+         PlaneSigmaCell(simulated.noise, i), NeighbourSigmaCell(recorded.neighbours, i),
+         NeighbourSigmaCell(simulated.neighbours, i), TemporalSigmaCell(recorded.temporal, i),
+         TemporalSigmaCell(simulated.temporal, i)});
   }
   return table;
 }

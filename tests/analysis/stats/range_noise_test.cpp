@@ -4,8 +4,11 @@
 
 #include <cmath>
 #include <memory>
+#include <numbers>
+#include <vector>
 
 #include "analysis/stats/bins.h"
+#include "analysis/stats/neighbour_noise.h"
 #include "analysis/stats/statistics.h"
 #include "core/base/random.h"
 #include "tests/analysis/recorded_frames.h"
@@ -157,6 +160,68 @@ TEST(Noise, OfTooFewPointsIsNoNumber) {
   noise.Add(RecordPointsOnly(wall.Scan(0)), {});
   EXPECT_FALSE(PlanesAt(noise, 25.0).RangeSigma_m().is_enough());
   EXPECT_FALSE(PlanesAt(noise, 25.0).RobustRangeSigma_m().is_enough());
+}
+
+Estimate NeighbourSigma_m(const std::vector<RecordedFrame>& frames) {
+  NeighbourNoise noise;
+  for (const RecordedFrame& frame : frames) noise.Add(frame);
+  return noise.Sigma_m(RangeBins().Find(25.0).value());
+}
+
+TEST_P(RangeNoise, OfNeighboursIsRecoveredWithoutAPlane) {
+  const double sigma_m = GetParam();
+  NoisyWall wall(25.0F, sigma_m, NoiseShape::kBeam);
+  std::vector<RecordedFrame> frames = {RecordPointsOnly(wall.Scan(0))};
+  const Estimate plain = NeighbourSigma_m(frames);
+  ASSERT_GT(plain.num, 5'000U);
+  // The interval is 1.96 standard errors wide on each side; four of them hold the truth.
+  EXPECT_NEAR(plain.value, sigma_m, 2.0 * (plain.high - plain.low) / 2.0);
+  // A corrugation of 20 columns, 30 mm high, is no plane, but bends by 3 mm in three firings:
+  // 30 mm x (2 pi / 20)^2 / sqrt(6) at its crests.
+  Frame& frame = frames.front().frame;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    const double column = static_cast<double>(slot % frame.width() / frame.returns);
+    frame.range_m[slot] += static_cast<float>(0.03 * std::sin(column * std::numbers::pi / 10.0));
+  }
+  EXPECT_GT(NeighbourSigma_m(frames).value, 0.95 * sigma_m);
+  EXPECT_LT(NeighbourSigma_m(frames).value, 1.05 * std::hypot(sigma_m, 0.0013));
+}
+
+TEST(NeighbourNoise, UnderstatesWhereNeighboursAreAveraged) {
+  NoisyWall wall(25.0F, 0.015, NoiseShape::kBeam);
+  const auto scan = MakeScanTable(NoiseRaster());
+  std::vector<RecordedFrame> frames;
+  for (std::uint32_t index = 0; index < 2; ++index) {
+    RecordedFrame& recorded = frames.emplace_back(RecordPointsOnly(wall.Scan(index)));
+    std::vector<float>& range_m = recorded.frame.range_m;
+    for (std::size_t slot = 0; slot + 1 < range_m.size(); ++slot) {
+      range_m[slot] = 0.5F * (range_m[slot] + range_m[slot + 1]);
+    }
+  }
+  TemporalNoise temporal;
+  temporal.Add(frames[0], frames[1], &*scan, &*scan);
+  const std::size_t bin = RangeBins().Find(25.0).value();
+  const double left_m = 0.015 / std::numbers::sqrt2;
+  EXPECT_NEAR(temporal.bins()[bin].RobustSigma_m().value / left_m, 1.0, 0.05);
+  EXPECT_NEAR(NeighbourSigma_m(frames).value / left_m, 1.0 / std::sqrt(3.0), 0.03);
+}
+
+TEST(NeighbourNoise, TakesNoPartAtEdgesNorOfPointsWithoutFirings) {
+  NoisyWall wall(25.0F, 0.015, NoiseShape::kBeam);
+  RecordedFrame recorded = RecordPointsOnly(wall.Scan(0));
+  // A step of 2 m every ten columns.
+  for (std::size_t slot = 0; slot < recorded.frame.num_slots(); ++slot) {
+    recorded.frame.range_m[slot] += 2.0F * static_cast<float>(slot / 10 % 2);
+  }
+  NeighbourNoise noise;
+  noise.Add(recorded);
+  for (const Scatter& bin : noise.bins()) {
+    if (bin.num() > 0) EXPECT_LT(bin.plain.StandardDeviation().value, 0.016);
+  }
+  recorded.is_grid = false;
+  NeighbourNoise none;
+  none.Add(recorded);
+  EXPECT_TRUE(none.bins().empty());
 }
 
 TEST(TemporalNoise, IsRecoveredWithinFivePercent) {

@@ -193,7 +193,7 @@ TEST(Noise, OfRoundedRangesIsThatBeforeRounding) {
       SCOPED_TRACE(steps);
       RecordedTrials trials = RoundedTrials(kSigma_m, steps * kSigma_m, is_from_turn_to_turn);
       const FitResult result = FitModel(trials, {});
-      EXPECT_EQ(result.is_from_turn_to_turn, is_from_turn_to_turn);
+      EXPECT_EQ(result.noise_from, is_from_turn_to_turn ? NoiseFrom::kTurns : NoiseFrom::kPieces);
       const FittedParameter& whole = result.parameters[0];
       const FittedParameter& at_0 = result.parameters[1];
       EXPECT_EQ(whole.remark.substr(0, 43), "before rounding: the ranges come in steps o");
