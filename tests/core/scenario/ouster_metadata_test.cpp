@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <tuple>
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
@@ -232,6 +233,7 @@ TEST(OusterScan, BringsTheRangeAndBeamOfItsProductLine) {
   EXPECT_EQ(lidar.receiver.range_at_10_percent_m, 55.0);
   // 0.18 deg at half maximum; between 1/e^2 points 2 / 1.1774 as wide.
   EXPECT_NEAR(lidar.beam.divergence_mrad[0], 1e3 * RadFromDeg(0.18) * 2.0 / 1.17741, 1e-4);
+  EXPECT_EQ(lidar.receiver.range_noise_floor_m, 0.005);
   nlohmann::ordered_json unknown = MadeOusterMetadata();
   unknown["sensor_info"].erase("prod_line");
   LidarSpec other;
@@ -239,6 +241,22 @@ TEST(OusterScan, BringsTheRangeAndBeamOfItsProductLine) {
   UseOusterMetadata(unknown.dump(), other);
   EXPECT_EQ(other.name, "roof");
   EXPECT_EQ(other.receiver.range_at_10_percent_m, ReceiverSpec{}.range_at_10_percent_m);
+}
+
+TEST(OusterScan, BringsTheNarrowBeamOfTheFirstGenerationWhereBeamsLeaveAsFarOut) {
+  for (const auto& [line, origin_mm, width_deg, floor_m] :
+       {std::tuple("OS-1-64", 12.163, 0.13, 0.002),
+        {"OS-1-64", 15.806, 0.18, 0.005},
+        {"OS-1-128", 12.163, 0.18, 0.005},
+        {"OS-2-128", 13.762, 0.09, 0.015}}) {
+    nlohmann::ordered_json metadata = MadeOusterMetadata();
+    metadata["sensor_info"]["prod_line"] = line;
+    metadata["beam_intrinsics"]["lidar_origin_to_beam_origin_mm"] = origin_mm;
+    LidarSpec lidar;
+    UseOusterMetadata(metadata.dump(), lidar);
+    EXPECT_NEAR(lidar.beam.divergence_mrad[0], 1e3 * RadFromDeg(width_deg) * 2.0 / 1.17741, 1e-4);
+    EXPECT_EQ(lidar.receiver.range_noise_floor_m, floor_m) << line << ' ' << origin_mm;
+  }
 }
 
 TEST(OusterScan, IsRefusedWhereTheLidarDoesNotStandUpright) {
