@@ -107,6 +107,15 @@ bool JsonSource::IsOfFile(const Node& node, const std::string& key) const {
 }
 
 std::optional<MemberList> JsonSource::Members(const Node& node) {
+  auto list = MembersWithBase(node);
+  if (!list || !may_read_files_) return list;
+  std::erase_if(list->members, [](const Member& member) {
+    return member.key == "version" && *member.value.json == 1;
+  });
+  return list;
+}
+
+std::optional<MemberList> JsonSource::MembersWithBase(const Node& node) {
   const bool is_name = node.json->is_string();
   const bool names_file = is_name || (node.json->is_object() && node.json->contains("file"));
   if (!names_file && (node.beneath == nullptr || !node.json->is_object())) {

@@ -60,7 +60,8 @@ struct MemberList {
 /// object whose key "file" names a file with the keys that the object itself lacks. Objects within
 /// it then have the keys that they lack from the objects of that file, at any depth, unless they
 /// name a file themselves. Names are relative to the file that they are written in. Every such file
-/// is an object with "version": 1.
+/// is an object with "version": 1, which the object may keep where it is copied from there to its
+/// place in another file.
 class JsonSource {
  public:
   /// The scenario's root, or nothing if it cannot be read.
@@ -109,6 +110,7 @@ class JsonSource {
   std::optional<Node> Load(SourceFile file, std::string resolved_pointer);
   std::optional<Node> Parse(const std::string& text, SourceFile file, std::string resolved_pointer);
   [[nodiscard]] bool IsOfFile(const Node& node, const std::string& key) const;
+  [[nodiscard]] std::optional<MemberList> MembersWithBase(const Node& node);
 
   bool may_read_files_ = true;
   bool is_shipped_ = false;  // Whether the files are those that the library holds.

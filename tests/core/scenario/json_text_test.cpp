@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "railcast/scenario.h"
 #include "tests/core/io/message_of.h"
@@ -73,6 +74,19 @@ TEST_F(Override, VisibilityTakesThePlaceOfTheFogDensity) {
       ReadWeather(R"("visibility_m": 100)", R"("fog_density_per_m": 0.02)").weather;
   EXPECT_EQ(dense.visibility_m, std::nullopt);
   EXPECT_EQ(dense.fog_density_per_m, 0.02);
+}
+
+TEST_F(Override, AnObjectThatWasCopiedOutOfItsFileMayKeepItsVersion) {
+  const std::filesystem::path base = ScenariosDir() / "minimal.json";
+  const ScenarioSpec named = ReadOn(base, R"("weather": {"rain_rate_mmph": 4})");
+  EXPECT_EQ(ReadOn(base, R"("weather": {"version": 1, "rain_rate_mmph": 4})"), named);
+  const std::string vlp16 = ReadFileWhole(ScenariosDir() / "sensors/vlp16.json");
+  EXPECT_EQ(ReadOn(base, R"("lidar": )" + vlp16).lidar.scan,
+            ReadOn(base, R"("lidar": {"file": ")" +
+                             (ScenariosDir() / "sensors/vlp16.json").string() + R"("})")
+                .lidar.scan);
+  EXPECT_EQ(MessageOf([&] { (void)ReadOn(base, R"("weather": {"version": 2})"); }),
+            (folder_.path() / "a.json").string() + ": /weather/version: unknown key");
 }
 
 TEST_F(Override, SeveralSensorsTakeThePlaceOfOneAndBack) {

@@ -134,6 +134,8 @@ Json SchemaWriter::ObjectWithBase() const {
   Json schema = PlainObject();
   Json properties = {{"file", FileNameSchema()}};
   properties["file"]["description"] = "Has the keys that are not given here.";
+  properties["version"] = {{"const", 1},
+                           {"description", "As in a file that this was copied from."}};
   properties.update(schema["properties"]);
   schema["properties"] = properties;
   if (!required_.empty()) {
