@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "core/base/units.h"
 #include "core/points/point_alignment.h"
@@ -41,11 +42,15 @@ std::map<std::size_t, std::vector<std::size_t>> PlacesOfFrames(
   std::map<std::size_t, std::vector<std::size_t>> places_of;
   for (std::size_t place = 0; place < places_m.size(); ++place) {
     std::vector<std::size_t> near;
+    // Sensors look away from what is below their own vehicle, but not those that lie on their side.
+    std::vector<std::size_t> nearest;
     for (std::size_t frame = 0; frame < way.at_frames.size(); ++frame) {
       const Vector3 sensor_m = way.at_frames[frame] * vehicle_from_sensor.translation();
       const double distance_m = (sensor_m - places_m[place]).head<2>().norm();
-      if (distance_m >= kNearestSensor_m && distance_m <= kFarthestSensor_m) near.push_back(frame);
+      if (distance_m > kFarthestSensor_m) continue;
+      (distance_m < kNearestSensor_m ? nearest : near).push_back(frame);
     }
+    if (near.empty()) near = std::move(nearest);
     const std::size_t num_used = std::min(near.size(), kMostFrames);
     for (std::size_t i = 0; i < num_used; ++i) {
       places_of[near[i * near.size() / num_used]].push_back(place);

@@ -26,7 +26,7 @@ struct RecordedGround {
 
 /// Finds the ground at places of the world: the plane near the horizontal that most points in a
 /// small circle about the place are in (PCL's MLESAC, refined by least squares), of up to eight
-/// frames whose sensor is 3 to 60 m away.
+/// frames whose sensor is 3 to 60 m away, or nearer where there are no such frames.
 /// @param places_m Where to look; the height is about that of the ground.
 /// @return One for each place.
 [[nodiscard]] std::vector<RecordedGround> FindGround(const std::filesystem::path& recording,

@@ -250,6 +250,23 @@ TEST(InsertPlan, ThingsThatWaitStayOnTheirGroundUntilTheyGo) {
   EXPECT_NEAR(height_m(2.0), 0.05, 0.02);
 }
 
+TEST(InsertPlan, FindsTheGroundNearASensorThatLooksDown) {
+  std::vector<std::string> points;
+  for (int i = 0; i < 60; ++i) {
+    for (int k = 0; k < 60; ++k) {
+      points.push_back(std::to_string(-1.0 + 0.1 * i) + " " + std::to_string(-3.0 + 0.1 * k) +
+                       " -2.4");
+    }
+  }
+  const TemporaryDirectory folder;
+  const fs::path source = WriteReceived(folder.path() / "run", StraightRun(3, 0.0), points);
+  const fs::path file =
+      WritePlan(folder.path(), "{}", Box(R"("s_m": 2, "d_m": 0)"), VelodyneOfPlan());
+  const InsertPlan plan = ReadInsertPlan(file, source);
+  ASSERT_TRUE(plan.places.at(0).has_ground);
+  EXPECT_NEAR(plan.world->WorldFromObject(0, 0).translation().z(), 0.1, 1e-3);
+}
+
 TEST(InsertPlan, TakesARowOfPointsForNoGround) {
   std::vector<std::string> points;
   for (int i = 0; i < 60; ++i) points.push_back("10 " + std::to_string(0.1 * i - 3.0) + " -2.4");
