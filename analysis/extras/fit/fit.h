@@ -41,7 +41,7 @@ enum class NoiseFrom : std::uint8_t {
 /// Takes for the residuals what has least besides noise. Where there are at least 500 changes from
 /// frame to frame that are smaller than the residuals, it is these: then the sensor stood, or moved
 /// by less than the surfaces' roughness. Else it is the second differences, if there are as many
-/// and their interval ends below the residuals' scatter. Points without either are left out.
+/// and their interval ends below 0.8 of the residuals' scatter. Points without either are left out.
 NoiseFrom TakeLeastNoise(RecordedTrials& trials);
 
 /// The robust standard deviation of residuals. Where ranges come in steps, it is that before

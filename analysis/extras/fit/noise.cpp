@@ -215,6 +215,8 @@ void TakeOutSteps(const RecordedTrials& trials,
 
 NoiseFrom TakeLeastNoise(RecordedTrials& trials) {
   constexpr std::size_t kLeast = 500;
+  // Of two measures that agree, taking whichever chance made smaller would understate the noise.
+  constexpr double kMuchLess = 0.8;
   const auto take = [&](float NoiseTrial::*sample_m, NoiseFrom from, const auto& is_less) {
     std::vector<double> samples_m, residuals_m;
     for (const NoiseTrial& trial : trials.noise) {
@@ -236,7 +238,7 @@ NoiseFrom TakeLeastNoise(RecordedTrials& trials) {
     return NoiseFrom::kTurns;
   }
   if (take(&NoiseTrial::bend_m, NoiseFrom::kNeighbours,
-           [](const Estimate& a, const Estimate& b) { return a.high < b.value; })) {
+           [](const Estimate& a, const Estimate& b) { return a.high < kMuchLess * b.value; })) {
     return NoiseFrom::kNeighbours;
   }
   return NoiseFrom::kPieces;

@@ -139,9 +139,8 @@ double FloorOf_m(bool has_next, double wave_columns = 0.0) {
   FitSettings settings;
   settings.is_physical = true;
   const FitResult result = FitModel(trials, settings);
-  const bool is_smooth = wave_columns > 0.0;
-  if (has_next) EXPECT_EQ(result.noise_from, NoiseFrom::kTurns);
-  if (!has_next) EXPECT_EQ(result.noise_from == NoiseFrom::kNeighbours, is_smooth);
+  const NoiseFrom alone = wave_columns > 0.0 ? NoiseFrom::kNeighbours : NoiseFrom::kPieces;
+  EXPECT_EQ(result.noise_from, has_next ? NoiseFrom::kTurns : alone);
   return result.parameters[1].estimate.value;
 }
 
