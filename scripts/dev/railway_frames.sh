@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Compares real frames of railways with simulated ones, and writes the tables and the chart of docs/results/railway.md.
+# Compares real frames of railways with simulated ones, and writes the tables and pictures of docs/results/railway.md.
 # The frames have no licence: figures measured on them may be published, they themselves may not.
 #
 # Usage: scripts/dev/railway_frames.sh FOLDER [BUILD_DIR]

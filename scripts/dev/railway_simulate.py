@@ -9,8 +9,17 @@ import numpy as np
 from railway_cloud import ARM_M, STEP_RAD, Turn
 
 SCENARIOS = pathlib.Path(__file__).resolve().parents[2] / "scenarios"
+STANDARD_GAUGE_MM = 1435
+MOST_GAUGE_ERROR_MM = 40  # Of the heads' distance; what differs by more has another gauge.
+HEAD_WIDTH_M = 0.072
+START_M = 400.0  # The vehicle's chainage.
+NOISES = ("range_noise", "channel_bias", "pointing_jitter", "range_walk")
 NUMPY_TYPES = {("F", "4"): "<f4", ("F", "8"): "<f8", ("U", "1"): "u1", ("U", "2"): "<u2", ("U", "4"): "<u4", ("I", "1"): "i1",
                ("I", "2"): "<i2", ("I", "4"): "<i4", ("U", "8"): "<u8", ("I", "8"): "<i8"}
+
+
+class ProgramError(Exception):
+    """A program of railcast refused what it was given."""
 
 
 def metadata(turn):
@@ -34,29 +43,42 @@ def to_ouster(turn):
     return turned(-turn.first_rad - (turn.num_columns - 1) * STEP_RAD)
 
 
-def write_scenario(folder, turn, track):
-    (folder / "sensor.json").write_text(json.dumps(metadata(turn)))
+def mount(turn, track):
     rotation = track.frame @ to_ouster(turn).T
     yaw, pitch = np.arctan2(rotation[1, 0], rotation[0, 0]), -np.arcsin(np.clip(rotation[2, 0], -1, 1))
     roll = np.arctan2(rotation[2, 1], rotation[2, 2])
-    middle = sum(track.heads_m) / 2
-    gauge_m = track.heads_m[1] - track.heads_m[0]
-    others = track.other_heads_m
-    middles = [(a + b) / 2 - middle for a in others for b in others if abs(b - a - gauge_m) < 0.05]
-    tracks = [{"name": "main"}] + [{"name": f"track_{i}", "offset_m": round(float(d), 3)}
-                                   for i, d in enumerate(middles) if abs(d) > 3]
-    scenario = {
-        "version": 1, "lidar": {"ouster_metadata": "sensor.json", "mount": {
-            "position_m": [0, float(-middle), float(track.height_m)], "yaw_deg": float(np.degrees(yaw)),
-            "pitch_deg": float(np.degrees(pitch)), "roll_deg": float(np.degrees(roll))}},
-        "world": {"alignment": {"course": {"type": "elements", "elements": [{"type": "straight", "length_m": 1000}]}},
-                  "tracks": tracks},
-        "vehicle": {"start_s_m": 400}, "materials": "@/materials/railway.json", "labels": "@/labels.json"}
-    gauge = 1e3 * (gauge_m - 0.072)
-    if abs(gauge - 1435) > 40:  # Not the standard gauge, whatever the error of the heads' distance.
-        scenario["world"]["alignment"]["gauge_mm"] = round(gauge)
-    text = json.dumps(scenario, indent=1).replace("@", str(SCENARIOS))
-    (folder / "scenario.json").write_text(text)
+    return {"position_m": [0, float(-sum(track.heads_m) / 2), float(track.height_m)], "yaw_deg": float(np.degrees(yaw)),
+            "pitch_deg": float(np.degrees(pitch)), "roll_deg": float(np.degrees(roll))}
+
+
+def lidar(turn, track):
+    """The sensor with the published model's noise along the beam, so that its firings are known again."""
+    return {"ouster_metadata": "sensor.json", "mount": mount(turn, track), "plausibility": {"noise_shape": "beam"}}
+
+
+def world(track):
+    """A straight line with the gauge, further tracks and platform that were found."""
+    tracks = [{"name": "main"}] + [{"name": f"track_{i}", "offset_m": round(each, 3)} for i, each in enumerate(track.others_m)]
+    section = {"alignment": {"course": {"type": "elements", "elements": [{"type": "straight", "length_m": 1000}]}},
+               "tracks": tracks}
+    gauge_mm = 1e3 * (track.heads_m[1] - track.heads_m[0] - HEAD_WIDTH_M)
+    if abs(gauge_mm - STANDARD_GAUGE_MM) > MOST_GAUGE_ERROR_MM:
+        section["alignment"]["gauge_mm"] = round(gauge_mm)
+    if track.platform is not None:
+        sign, edge, height, _ = track.platform
+        section["structures"] = [{"name": "platform", "type": "platform", "side": "left" if sign > 0 else "right",
+                                  "begin_s_m": START_M - 60, "end_s_m": START_M + 60, "edge_distance_m": round(edge[0], 3),
+                                  "height_m": round(min(max(height[0], 0.2), 1.3), 3)}]
+    return section
+
+
+def write_scenario(folder, turn, track, without_noise):
+    (folder / "sensor.json").write_text(json.dumps(metadata(turn)))
+    scenario = {"version": 1, "lidar": lidar(turn, track), "world": world(track), "vehicle": {"start_s_m": START_M},
+                "materials": "@/materials/railway.json", "labels": "@/labels.json"}
+    if without_noise:
+        scenario["effects"] = {name: False for name in NOISES}
+    (folder / "scenario.json").write_text(json.dumps(scenario, indent=1).replace("@", str(SCENARIOS)))
 
 
 def read_pcd(path):
@@ -69,13 +91,22 @@ def read_pcd(path):
     return np.stack([cloud[axis] for axis in "xyz"], axis=1).astype(float)
 
 
-def simulate(build, folder, turn, track, rung):
+def run(command):
+    """Runs a program, whose message is the error if it fails."""
+    done = subprocess.run([str(part) for part in command], text=True, capture_output=True)
+    if done.returncode:
+        lines = done.stderr.strip().splitlines()
+        raise ProgramError(lines[-1] if lines else f"{command[0]} failed with status {done.returncode}")
+    return done.stdout
+
+
+def simulate(build, folder, turn, track, rung, without_noise=False):
     """The simulated turn, in the axes and with the rings and columns of the real one."""
     folder.mkdir(parents=True, exist_ok=True)
-    write_scenario(folder, turn, track)
-    out = folder / rung
-    subprocess.run([build / "generator/railcast-generate", "sequence", folder / "scenario.json", "--out", out, "--frames", "1",
-                    "--fidelity", rung, "--fields", "x,y,z"], check=True, stdout=subprocess.DEVNULL)
+    write_scenario(folder, turn, track, without_noise)
+    out = folder / (rung + "_without_noise" * without_noise)
+    run([build / "generator/railcast-generate", "sequence", folder / "scenario.json", "--out", out, "--frames", "1",
+                    "--fidelity", rung, "--fields", "x,y,z"])
     points = read_pcd(next(out.rglob("*.pcd")))
     points = points[np.isfinite(points).all(axis=1)] @ to_ouster(turn)
     return assign(turn, points)

@@ -1,13 +1,14 @@
-"""Finds the track in a turn, and measures bed, relief and noise. A part of railway_frames.py."""
+"""Finds the tracks in a turn, of any gauge from 0.6 to 1.8 m. A part of railway_frames.py."""
 
 import dataclasses
 
 import numpy as np
-from scipy.spatial import cKDTree
 
-STRIP_M = 0.04
-LAGS_M = (0.014, 0.020, 0.030, 0.040, 0.050, 0.070, 0.100, 0.150, 0.200, 0.250)
-RANGES_M = (3, 4, 5, 6, 8, 12, 20, 40)
+HEADS_APART_M = (0.65, 1.88)  # Gauges from 0.6 to 1.8 m, between the middles of the heads.
+STEP_M = 0.02
+MOST_ACROSS_M = 20.0
+RISE_M = (0.07, 0.35)  # Of a head above what is beside it.
+BESIDE_M = 0.30  # On both sides of a head something lies lower within this distance and the shadow; walls lack that.
 
 
 @dataclasses.dataclass
@@ -18,7 +19,8 @@ class Track:
     heads_m: tuple  # Distances of the two heads' middles from the sensor, left positive.
     head_points: tuple
     interval_m: tuple  # 95 % of the heads' distance, by bootstrap.
-    other_heads_m: list
+    others_m: list  # Distances of further tracks' middles from its own.
+    platform: tuple = None  # As railway_rails.platform() found it.
 
 
 def find_plane(points, rng):
@@ -56,28 +58,45 @@ def best_heading(along, left, height):
     return min(angles, key=spread)
 
 
-def find_heads(across, height):
-    """[(middle, height, points)] of ridges 0.07 to 0.35 m above what is beside them."""
-    strip = np.floor(across / 0.02).astype(int)
-    order = np.arange(strip.min(), strip.max() + 1)
-    medians = np.array([np.median(height[strip == k]) if np.sum(strip == k) > 7 else np.nan for k in order])
+def median_heights(across, height, least):
+    """The number of the first strip of 2 cm, and the strips' median heights, NaN where there are too few points."""
+    strip = np.floor(across / STEP_M).astype(int)
+    order = np.argsort(strip, kind="stable")
+    first, last = strip.min(), strip.max()
+    edges = np.searchsorted(strip[order], np.arange(first, last + 2))
+    return first, np.array([np.median(height[order[a:b]]) if b - a >= least else np.nan for a, b in zip(edges, edges[1:])])
+
+
+def find_heads(across, height, sensor_m, least=8):
+    """Ridges above what is beside them on both sides: (middle, height, positions of the points on it)."""
+    first, medians = median_heights(across, height, least)
     heads = []
-    for i in range(len(order)):
-        around = medians[max(0, i - 30): i + 31]
-        near = medians[max(0, i - 15): i + 16]
-        rise = medians[i] - np.nanmedian(around) if np.isfinite(medians[i]) else 0
-        if 0.07 < rise < 0.35 and medians[i] >= np.nanmax(near):
-            middle = (order[i] + 0.5) * 0.02
-            chosen = (np.abs(across - middle) < 0.09) & (np.abs(height - medians[i]) < 0.025)
-            heads.append((np.median(across[chosen]), np.median(height[chosen]), across[chosen]))
+    for i in np.flatnonzero(np.isfinite(medians)):
+        around, near = medians[max(0, i - 30): i + 31], medians[max(0, i - 15): i + 16]
+        beside = int((BESIDE_M + 0.25 * abs(first + i) * STEP_M / sensor_m) / STEP_M)
+        left, right = medians[max(0, i - beside): i], medians[i + 1: i + 1 + beside]
+        if not RISE_M[0] < medians[i] - np.nanmedian(around) < RISE_M[1] or medians[i] < np.nanmax(near):
+            continue
+        if not all(np.isfinite(side).any() and np.nanmin(side) < medians[i] - RISE_M[0] for side in (left, right)):
+            continue
+        middle = (first + i + 0.5) * STEP_M
+        chosen = (np.abs(across - middle) < 0.09) & (np.abs(height - medians[i]) < 0.025)
+        heads.append((np.median(across[chosen]), np.median(height[chosen]), across[chosen]))
     return heads
 
 
+def best_pair(heads):
+    """The two heads at a track's distance that have the most points, counted on the one that has fewer."""
+    pairs = [(a, b) for i, a in enumerate(heads) for b in heads[i + 1:]
+             if HEADS_APART_M[0] < b[0] - a[0] < HEADS_APART_M[1] and abs(a[1] - b[1]) < 0.2]
+    return max(pairs, key=lambda pair: min(len(pair[0][2]), len(pair[1][2])), default=None)
+
+
 def find_track(turn):
-    rng = np.random.default_rng(1)
+    """The track that shows most of its heads, or None."""
     distance = np.linalg.norm(turn.points, axis=1)
     least = np.percentile(distance, 1)
-    normal, offset = find_plane(turn.points[distance < 1.8 * least], rng)
+    normal, offset = find_plane(turn.points[distance < 1.8 * least], np.random.default_rng(1))
     guess = np.eye(3)[np.argmin(np.abs(normal))]
     along = guess - normal * (guess @ normal)
     along /= np.linalg.norm(along)
@@ -91,84 +110,46 @@ def find_track(turn):
         angle = best_heading(near[low] @ along, near[low] @ left, height[low])
         along = along * np.cos(angle) + left * np.sin(angle)
         left = np.cross(normal, along)
-        heads = find_heads(near[low] @ left, height[low])
-        pairs = [(a, b) for i, a in enumerate(heads) for b in heads[i + 1:]
-                 if 0.85 < b[0] - a[0] < 1.8 and abs(a[1] - b[1]) < 0.2]
-        if not pairs:
+        pair = best_pair(find_heads(near[low] @ left, height[low], offset))
+        if pair is None:
             return None
-        a, b = max(pairs, key=lambda pair: min(len(pair[0][2]), len(pair[1][2])))
-        lean = (b[1] - a[1]) / (b[0] - a[0])
-        normal = normal - lean * left
+        a, b = pair
+        normal = normal - (b[1] - a[1]) / (b[0] - a[0]) * left
         normal /= np.linalg.norm(normal)
         left = np.cross(normal, along)
-        offset = -np.median((near[low] @ normal)[(np.abs(near[low] @ left - a[0]) < 0.03) & (np.abs(height[low] - a[1]) < 0.02)])
-    left = np.cross(normal, along)
+        on_head = (np.abs(near[low] @ left - a[0]) < 0.03) & (np.abs(height[low] - a[1]) < 0.02)
+        if not on_head.any():
+            return None
+        offset = -np.median((near[low] @ normal)[on_head])
+    return finish_track(np.array([along, np.cross(normal, along), normal]), offset, a, b, turn)
+
+
+def finish_track(frame, height_m, a, b, turn):
+    rng = np.random.default_rng(1)
     draws = [np.median(rng.choice(b[2], len(b[2]))) - np.median(rng.choice(a[2], len(a[2]))) for _ in range(200)]
-    others = [head[0] for head in heads if head is not a and head is not b]
-    return Track(np.array([along, left, normal]), offset, (a[0], b[0]), (len(a[2]), len(b[2])),
-                 tuple(np.percentile(draws, (2.5, 97.5))), others)
+    track = Track(frame, height_m, (a[0], b[0]), (len(a[2]), len(b[2])), tuple(np.percentile(draws, (2.5, 97.5))), [])
+    track.others_m = other_tracks(turn, track)
+    return track
+
+
+def other_tracks(turn, track):
+    """Distances of further tracks' middles from the found one's, left positive: pairs of ridges at its own distance."""
+    local = in_track(turn, track)
+    along_m = np.abs(local[:, 0] - foot_m(turn, track))
+    chosen = (along_m < 1.5 * track.height_m) & (np.abs(local[:, 2]) < 0.5) & (np.abs(local[:, 1]) < MOST_ACROSS_M)
+    heads = find_heads(local[chosen, 1], local[chosen, 2], track.height_m, 5)
+    apart = track.heads_m[1] - track.heads_m[0]
+    middles = [(a[0] + b[0]) / 2 - sum(track.heads_m) / 2 for i, a in enumerate(heads) for b in heads[i + 1:]
+               if abs(b[0] - a[0] - apart) < 0.08]
+    return [float(each) for each in middles if abs(each) > apart]
 
 
 def in_track(turn, track):
+    """Points along, to the left and above the heads, from the sensor."""
     return turn.points @ track.frame.T + [0, 0, track.height_m]
 
 
-def bed_points(turn, track, reach=None):
+def foot_m(turn, track):
+    """The place along the track at the middle of the window."""
     local = in_track(turn, track)
-    low, high = track.heads_m
-    reach = reach or 0.6 * np.tan(np.radians(30)) * track.height_m
-    inside = (local[:, 1] > low + 0.2) & (local[:, 1] < high - 0.2) & (np.abs(local[:, 2] + 0.2) < 0.2) & \
-        (np.abs(local[:, 0] - np.median(local[:, 0][np.abs(local[:, 1] - (low + high) / 2) < 0.5])) < reach)
-    return local[inside]
-
-
-def strips(bed, track):
-    """Median height, points and standard error of strips of 4 cm, from 0.2 m beside the first head on."""
-    strip = ((bed[:, 1] - track.heads_m[0] - 0.2) / STRIP_M).astype(int)
-    heights = [bed[strip == k, 2] for k in range(int((track.heads_m[1] - track.heads_m[0] - 0.4) / STRIP_M))]
-    return [(np.median(z), len(z), 1.2533 * np.std(z) / np.sqrt(len(z))) if len(z) > 5 else (np.nan, len(z), np.nan) for z in heights]
-
-
-def relief(bed):
-    """By lag the root of half the mean squared difference, with the number of pairs, and the rms about the smooth surface."""
-    x, y = (bed[:, i] - bed[:, i].mean() for i in (0, 1))
-    design = np.stack([x**i * y**j for i in range(4) for j in range(4 - i)], axis=1)
-    rest = bed[:, 2] - design @ np.linalg.lstsq(design, bed[:, 2], rcond=None)[0]
-    kept = np.abs(rest) < 0.1
-    rest, plan = rest[kept], bed[kept, :2]
-    pairs = cKDTree(plan).query_pairs(LAGS_M[-1], output_type="ndarray")
-    lag = np.linalg.norm(plan[pairs[:, 0]] - plan[pairs[:, 1]], axis=1)
-    square = (rest[pairs[:, 0]] - rest[pairs[:, 1]])**2 / 2
-    rows = []
-    for low, high in zip(LAGS_M, LAGS_M[1:]):
-        chosen = (lag >= low) & (lag < high)
-        rows.append((np.sqrt(square[chosen].mean()) if chosen.any() else np.nan, int(chosen.sum())))
-    return rows, np.std(rest)
-
-
-def noise(turn):
-    """By range: robust sigma of second differences along rings over root 6, n, and 95 % by bootstrap over rings."""
-    grid = turn.grid(turn.range_m)
-    second = grid[:, 2:] - 2 * grid[:, 1:-1] + grid[:, :-2]
-    middle = grid[:, 1:-1]
-    rng = np.random.default_rng(2)
-    rows = []
-    for low, high in zip(RANGES_M, RANGES_M[1:]):
-        chosen = np.isfinite(second) & (middle >= low) & (middle < high)
-        if chosen.sum() < 200:
-            rows.append(None)
-            continue
-        rings = [np.abs(second[k][chosen[k]]) for k in range(len(second)) if chosen[k].any()]
-        draws = [np.median(np.concatenate([rings[i] for i in rng.integers(0, len(rings), len(rings))])) for _ in range(60)]
-        scale = 1.4826 / np.sqrt(6)
-        rows.append((scale * np.median(np.concatenate(rings)), int(chosen.sum()), *(scale * np.percentile(draws, (2.5, 97.5)))))
-    return rows
-
-
-def grazing(turn, track):
-    """By angle from the plumb line, below the horizon: firings and those without a return. The farthest third of the
-    window's firings may end in the sky or in walls, which the frames do not tell apart."""
-    has = np.isfinite(turn.grid(turn.range_m))
-    angle = np.degrees(np.arccos(np.clip(-turn.directions() @ track.frame[2], -1, 1)))
-    edges = (0, 60, 70, 75, 80, 85)
-    return [(int(np.sum((angle >= a) & (angle < b))), int(np.sum((angle >= a) & (angle < b) & ~has))) for a, b in zip(edges, edges[1:])]
+    return np.median(local[np.abs(local[:, 1] - sum(track.heads_m) / 2) < 0.5, 0])
