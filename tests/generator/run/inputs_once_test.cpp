@@ -151,8 +151,8 @@ TEST_F(InputsOnce, AreNotWrittenOver) {
     for (const std::string option : {"--summary ", "--picture "}) {
       const Ended run = Generate(Sequence(1, option + file.string()));
       EXPECT_EQ(run.status, 1);
-      EXPECT_EQ(run.said, option + file.string() +
-                              ": must not be written over, since this command reads it\n");
+      EXPECT_EQ(run.said,
+                file.string() + ": must not be written over, since this command reads it\n");
       EXPECT_FALSE(fs::exists(Path("run1")));
     }
     const Ended checked = Generate("check " + Scenario(1) + " --resolved " + file.string());
