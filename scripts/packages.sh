@@ -53,6 +53,7 @@ build_packages=(
   cyclonedds-dev
   libassimp-dev
   libbenchmark-dev
+  libbz2-dev
   libexpat1-dev
   libfastcdr-dev
   libfastrtps-dev

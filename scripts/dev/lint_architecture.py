@@ -74,6 +74,7 @@ LIBRARY_OWNERS = {
     "NLopt": (r"nlopt\.hpp$", ("analysis/estimate",)),
     "zstd": (r"zstd\.h$", ("core/extras/ros/mcap",)),
     "LZ4": (r"lz4\w*\.h$", ("core/extras/ros/mcap",)),
+    "bzip2": (r"bzlib\.h$", ("generator/extras/import",)),
     "Expat": (r"expat\.h$", ("generator/extras/import",)),
     "libosmium": (r"osmium/", ("generator/extras/import",)),
     "protozero": (r"protozero/", ("generator/extras/import",)),

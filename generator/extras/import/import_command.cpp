@@ -440,8 +440,10 @@ void AddImport(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<ImportCommandOptions>();
   ProgramOptions subcommand = app.AddCommand("import", OwnProgramOf("import").description);
   subcommand
-      .AddOption("MAP", options->map,
-                 "Overpass JSON, .osm, .pbf, GeoJSON, GPX, KML or railML 3 with tracks as lines")
+      .AddOption(
+          "MAP", options->map,
+          "Overpass JSON, .osm, .pbf, GeoJSON, GPX, KML or railML 3 with tracks as lines, also "
+          "packed as .gz or .bz2")
       .Required()
       .Check(NonEmpty());
   subcommand.AddOption("--out", options->out, "New or empty folder to write to")

@@ -2,18 +2,31 @@
 
 #include <cmath>
 #include <filesystem>
+#include <istream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/text_encoding.h"
 #include "core/base/text_number.h"
 #include "core/scenario/json_text.h"
 #include "generator/extras/import/map/rail_map.h"
 
 namespace railcast {
+
+/// Opens a map. What gzip or bzip2 packed, as its first bytes say, is unpacked while it is read,
+/// with all of its members.
+/// @throws InputError as OpenInput() does. Reading throws it, too: if packed data are damaged, end
+///   early or have anything behind them, or if they unpack to more than 64 MiB and 100 times their
+///   size, as no map does.
+[[nodiscard]] std::unique_ptr<std::istream> OpenMap(const std::filesystem::path& file);
+[[nodiscard]] bool IsPacked(const std::filesystem::path& file);
+
+/// A whole map, unpacked, AsUtf8().
+/// @throws InputError as OpenMap() and reading do.
+[[nodiscard]] std::string ReadMapText(const std::filesystem::path& file);
 
 /// Whether JSON is nested deeper than ParseJson() takes it, which is slower than to look first.
 [[nodiscard]] inline bool IsNestedDeep(std::string_view json) {
@@ -35,7 +48,7 @@ namespace railcast {
 
 /// @throws InputError if the file cannot be read, is no JSON or is nested deeper than 64 levels.
 [[nodiscard]] inline Json ReadMapJson(const std::filesystem::path& file) {
-  const std::string text = ReadTextWhole(file);
+  const std::string text = ReadMapText(file);
   try {
     if (!IsNestedDeep(text)) return Json::parse(text);
   } catch (const Json::exception&) {

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "generator/extras/import/map/map_formats.h"
 #include "generator/extras/import/map/osm_map.h"
@@ -314,14 +313,14 @@ void ReadBlock(std::istream& stream, const TakeBlock& take) {
 
 /// Takes the blocks behind the header.
 void TakeBlocks(const std::filesystem::path& file, const TakeBlock& take) {
-  std::ifstream stream = OpenInput(file);
-  for (int block = 1; stream.peek() != std::ifstream::traits_type::eof(); ++block) {
+  const std::unique_ptr<std::istream> stream = OpenMap(file);
+  for (int block = 1; stream->peek() != std::istream::traits_type::eof(); ++block) {
     const auto refuse = [&](const char* rule, const std::exception& error) {
       throw InputError({Fault{"", rule, ShownText(error.what())}});
     };
     AtPlace("block " + std::to_string(block) + ": ", [&] {
       try {
-        ReadBlock(stream, take);
+        ReadBlock(*stream, take);
       } catch (const osmium::pbf_error& error) {
         refuse("must be zlib, lz4 or plain (osmium cat IN.pbf -o OUT.pbf makes it so)", error);
       } catch (const osmium::io_error& error) {

@@ -10,7 +10,6 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
 #include "core/base/unread_formats.h"
@@ -40,9 +39,9 @@ void AppendRuns(const MapWay& way, const std::vector<std::size_t>& kept, RailMap
 
 std::string BytesAtBegin(const std::filesystem::path& file) {
   std::array<char, 4096> bytes{};
-  std::ifstream stream = OpenInput(file);
-  stream.read(bytes.data(), bytes.size());
-  return {bytes.data(), static_cast<std::size_t>(stream.gcount())};
+  const std::unique_ptr<std::istream> stream = OpenMap(file);
+  stream->read(bytes.data(), bytes.size());
+  return {bytes.data(), static_cast<std::size_t>(stream->gcount())};
 }
 
 /// The first character of a text but blanks; 0 if there is none.
@@ -66,17 +65,26 @@ bool NamesOpenStreetMap(std::string begin) {
   return begin.find("openstreetmap") != std::string::npos;
 }
 
+/// How to convert a file of another format. What is packed is no such file, nor is what has only
+/// kept its name after it was unpacked.
+std::string AdviceOnOther(const std::filesystem::path& file) {
+  const std::string ending = LowerCase(file.extension().string());
+  return IsPacked(file) || ending == ".gz" || ending == ".bz2" ? "" : AdviceOnFile(file);
+}
+
 RailMap ReadAnyMap(const std::filesystem::path& file) {
   const std::string bytes = BytesAtBegin(file);
   if (IsOsmPbf(bytes)) return ReadOsmPbf(file);
-  if (const std::string advice = AdviceOnFile(file); !advice.empty()) {
+  if (const std::string advice = AdviceOnOther(file); !advice.empty()) {
     throw InputError(ShownPath(file) + ": " + advice);
   }
   const std::string begin = AsUtf8(bytes);
   if (IsOverpass(begin)) return ReadOverpassJson(file);
   if (FirstOf(begin) != '<' && FirstOf(begin) != '{') {
     throw InputError(ShownPath(file) +
-                     ": must be a map: Overpass JSON, .osm, .pbf, GeoJSON, GPX, KML or railML 3");
+                     ": must be a map: Overpass JSON, .osm, .pbf, GeoJSON, GPX, KML or railML 3, "
+                     "also as .gz or .bz2" +
+                     (bytes.empty() ? " (got nothing)" : ""));
   }
   RailMap map = FirstOf(begin) == '<' ? ReadXmlMap(file) : ReadGeoJson(file);
   if (NamesOpenStreetMap(begin)) map.attribution = kOpenStreetMapAttribution;
@@ -153,7 +161,14 @@ RailMap CropMap(const RailMap& map, const Eigen::AlignedBox2d& within_deg) {
 }
 
 RailMap ReadMap(const std::filesystem::path& file) {
-  RailMap map = ReadAnyMap(file);
+  RailMap map;
+  try {
+    map = ReadAnyMap(file);
+  } catch (const InputError&) {
+    // Damaged packing makes the map look wrong, too; then it is the damage that is told.
+    if (IsPacked(file)) OpenMap(file)->ignore(std::numeric_limits<std::streamsize>::max());
+    throw;
+  }
   AtPlace(ShownPath(file) + ": ", [&] {
     CheckNeighbours(map);
     CheckIsWhereRailwaysAre(map);

@@ -9,7 +9,6 @@
 #include <sstream>
 #include <type_traits>
 
-#include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
 #include "generator/extras/import/map/map_formats.h"
@@ -177,7 +176,7 @@ std::optional<Eigen::Vector2d> XmlPlace_deg(const XmlElement& element, XmlFaults
 
 RailMap ReadXmlMap(const std::filesystem::path& file) {
   constexpr std::size_t kBlock = 1 << 16;
-  std::ifstream stream = OpenInput(file);
+  const std::unique_ptr<std::istream> stream = OpenMap(file);
   std::string block(kBlock, '\0');
   const auto read = [&](std::istream& in) {
     block.resize(kBlock);
@@ -185,19 +184,19 @@ RailMap ReadXmlMap(const std::filesystem::path& file) {
     block.resize(static_cast<std::size_t>(in.gcount()));
     return !in;
   };
-  bool is_last = read(stream);
+  bool is_last = read(*stream);
   // A file that was saved anew in UTF-16 may still say that it is UTF-8.
   const bool is_utf16 = IsUtf16(block);
   std::istringstream text;
   if (is_utf16) {
-    text.str(ReadTextWhole(file));
+    text.str(ReadMapText(file));
     is_last = read(text);
   }
   const XmlParser parser(XML_ParserCreate(is_utf16 ? "UTF-8" : nullptr), &XML_ParserFree);
   XmlVisit visit(parser.get());
   return AtPlace(ShownPath(file) + ": ", [&] {
     while (visit.Parse(block, is_last) && !is_last) {
-      is_last = is_utf16 ? read(text) : read(stream);
+      is_last = is_utf16 ? read(text) : read(*stream);
     }
     return visit.Make();
   });

@@ -330,8 +330,6 @@ TEST(MapProjection, RefusesSystemsThatAreNotInMetres) {
 TEST_F(Maps, OfFormatsThatAreNotReadAreNamed) {
   EXPECT_EQ(Fault("a.kmz", "PK\3\4"),
             "a.kmz: is packed KML, which is not read: unzip a.kmz doc.kml");
-  EXPECT_EQ(Fault("a.osm.gz", "\x1F\x8B\x08"),
-            "a.osm.gz: is a file that gzip packed, which is not read: gunzip a.osm.gz");
   EXPECT_EQ(Fault("a.shp", "x"),
             "a.shp: is a shapefile, which is not read: ogr2ogr a.geojson a.shp");
 }
