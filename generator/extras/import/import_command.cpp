@@ -11,7 +11,6 @@
 #include <mutex>
 #include <numeric>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -171,64 +170,6 @@ std::vector<LineWorld> BuildWorlds(const RailMap& map,
   return worlds;
 }
 
-std::string TracksCsv(const std::vector<ImportedLine>& lines,
-                      const std::vector<LineWorld>& worlds) {
-  std::ostringstream csv;
-  csv << "line,tracks,turnouts,median_shift_m,p95_shift_m,length_m,points,median_m,p99_m,"
-         "crossings,switches,switches_made\n";
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const SideTrackQuality& q = worlds[i].quality;
-    csv << lines[i].name << ',' << q.num_tracks << ',' << q.num_turnouts << ','
-        << QuantileOf(q.shifts_m, 0.5) << ',' << QuantileOf(q.shifts_m, 0.95) << ',' << q.length_m
-        << ',' << q.distances_m.size() << ',' << QuantileOf(q.distances_m, 0.5) << ','
-        << QuantileOf(q.distances_m, 0.99) << ',' << worlds[i].crossings.size() << ','
-        << q.num_switches << ',' << worlds[i].switches.size() << '\n';
-  }
-  return csv.str();
-}
-
-/// So far beside a line its elevation is kept, since so far sensors see.
-constexpr double kElevationMargin_m = 500.0;
-
-Eigen::AlignedBox2d BoundsAbout(const RailMap& map, const TrackLine& track) {
-  Eigen::AlignedBox2d bounds_m;
-  for (const std::size_t node : track.nodes) bounds_m.extend(map.nodes[node].place_m);
-  const Eigen::Vector2d margin_m = Eigen::Vector2d::Constant(kElevationMargin_m);
-  return {bounds_m.min() - margin_m, bounds_m.max() + margin_m};
-}
-
-/// The elevation model about all lines; null if none was given.
-std::unique_ptr<const ElevationMap> ReadElevation(const ImportCommandOptions& options,
-                                                  const MapProjection& projection,
-                                                  const RailMap& map,
-                                                  const std::vector<TrackLine>& tracks) {
-  if (options.heights.empty()) return nullptr;
-  Eigen::AlignedBox2d bounds_m;
-  for (const TrackLine& track : tracks) bounds_m.extend(BoundsAbout(map, track));
-  auto elevation = std::make_unique<const ElevationMap>(options.heights, options.heights_crs,
-                                                        projection, bounds_m);
-  CheckCovers(map, tracks, *elevation, ShownPath(options.heights));
-  return elevation;
-}
-
-void WriteLine(const std::filesystem::path& out,
-               const ImportedLine& line,
-               const MapProjection& projection,
-               const LineWorld& world,
-               bool has_elevation) {
-  WriteFileWhole(out / (line.name + ".alignment.json"), AlignmentFileText(line, projection));
-  WriteFileWhole(out / (line.name + ".world.json"), WorldFileText(line, world, has_elevation));
-}
-
-std::string LeftOutLinesText(const std::vector<LeftOutLine>& left_out) {
-  std::string text;
-  for (const LeftOutLine& line : left_out) {
-    text += "left out line " + line.track.name + " of " + NumberText(std::round(line.length_m)) +
-            " m: " + ShownLines(line.reason) + "\n";
-  }
-  return text;
-}
-
 /// The map, or what of it lies within the rectangle that was asked for.
 RailMap ReadMapWithin(const ImportCommandOptions& options) {
   RailMap map = ReadMap(options.map);
@@ -254,36 +195,6 @@ RailMap ReadMapWithin(const ImportCommandOptions& options) {
   return cropped;
 }
 
-void WriteTables(const std::filesystem::path& out,
-                 const LinesInWork& work,
-                 const std::vector<AccountRow>& account,
-                 const LeftOutOfMap& left_out) {
-  WriteFileWhole(out / "left_out.csv", LeftOutCsv(left_out, work.lines, work.worlds));
-  WriteFileWhole(out / "moved.csv", MovedCsv(work.lines, work.worlds));
-  WriteFileWhole(out / "tracks.csv", TracksCsv(work.lines, work.worlds));
-  WriteFileWhole(out / "account.csv", AccountCsv(account));
-  WriteFileWhole(out / "heights.csv", HeightsCsv(work.lines));
-  WriteFileWhole(out / "lines.csv", QualityCsv(work.lines));
-  WriteFileWhole(out / "contradictions.csv", ContradictionsCsv(work.lines));
-}
-
-/// Gives a line its heights, and says why they cannot be its own.
-std::optional<std::string> GiveHeights(const ImportCommandOptions& options,
-                                       const RailMap& map,
-                                       const TrackLine& track,
-                                       const ElevationMap* elevation,
-                                       ImportedLine& line) {
-  if (elevation != nullptr) {
-    SetHeights(map, track, *elevation, ShownPath(options.heights), line);
-  } else if (!options.is_level) {
-    SetHeights(map, track, line);
-  }
-  if (!line.height_quality || line.height_quality->p99_m <= kFarthestHeight_m) return std::nullopt;
-  return "its heights must lie within " + NumberText(kFarthestHeight_m) +
-         " m of gradients that a railway can have (got " + ShortText(line.height_quality->p99_m) +
-         " m for one in a hundred)";
-}
-
 /// Gives heights to all lines, and writes those that stand.
 /// @returns Why others do not.
 std::vector<std::optional<std::string>> FinishLines(const ImportCommandOptions& options,
@@ -300,15 +211,14 @@ std::vector<std::optional<std::string>> FinishLines(const ImportCommandOptions& 
     const TrackLine& track = work.tracks[i];
     ImportedLine& line = work.lines[i];
     LineWorld& world = work.worlds[i];
-    reasons[i] = GiveHeights(options, map, track, elevation, line);
+    if (!options.is_level) reasons[i] = SetHeights(map, track, elevation, line);
     std::optional<std::filesystem::path> elevation_file;
     if (elevation != nullptr && !reasons[i]) {
       elevation_file = options.out / (line.name + ".elevation.asc");
-      WriteFileWhole(*elevation_file, ElevationGridText(*elevation, BoundsAbout(map, track)));
+      WriteFileWhole(*elevation_file, ElevationGridText(*elevation, ElevationBounds(map, track)));
     }
     if (!reasons[i]) {
-      SetCants(map, track, line);
-      if (!HasSurveyedCant(map, track)) LevelCant(world.level, line.alignment);
+      SetCants(map, track, world.level, line);
       ClearStructures(line.alignment, world);
       reasons[i] = MakeStand(line.alignment, elevation_file, world);
     }
@@ -370,8 +280,10 @@ int RunImport(const ImportCommandOptions& options) {
     throw InputError(ShownPath(options.map) + ": must have a line of at least --min-length " +
                      NumberText(options.min_length_m) + " m");
   }
-  const std::unique_ptr<const ElevationMap> elevation =
-      ReadElevation(options, projection, map, work.tracks);
+  std::unique_ptr<const ElevationMap> elevation;
+  if (!options.heights.empty()) {
+    elevation = ReadElevation(options.heights, options.heights_crs, projection, map, work.tracks);
+  }
   const std::size_t num_of_map = left_out.remarks.size();
   if (elevation && elevation->num_void() > 0) {
     left_out.remarks.push_back({RemarkKind::kHeightsVoid, "", elevation->num_void(),
@@ -395,14 +307,12 @@ int RunImport(const ImportCommandOptions& options) {
   const std::vector<AccountRow> account = AccountOf(
       map, {work.tracks, work.lines, work.worlds, left_out.lines,
             options.is_main_only ? "--main-only leaves out tracks beside lines" : kNearNoLine});
-  WriteTables(options.out, work, account, left_out);
+  WriteTables(options.out, work.lines, work.worlds, account, left_out);
   std::cout << "projection: " << ShownLines(projection.definition) << ", minus ("
             << NumberText(projection.origin_m.x()) << ", " << NumberText(projection.origin_m.y())
             << ") m; longitudes and latitudes in scenarios are right to "
             << ShortText(projection.geographic_error_m) << " m\n\n"
-            << QualityTable(work.lines) << '\n'
-            << AccountTable(account) << '\n'
-            << MovedText(work.worlds) << LeftOutLinesText(left_out.lines) << "Wrote "
+            << TablesText(work.lines, work.worlds, account, left_out.lines) << "Wrote "
             << Amount(work.lines.size(), "lines to ") << ShownPath(options.out) << '\n';
   if (!work.lines.empty()) return kExitSuccess;
   throw InputError(ShownPath(options.map) + ": must have a line that can be built (got " +

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include "generator/extras/import/lines/imported_line.h"
 #include "generator/extras/import/map/map_projection.h"
 #include "generator/extras/import/network/line_world.h"
+#include "generator/extras/import/structures/map_account.h"
 #include "railcast/remark.h"
 #include "railcast/structures.h"
 #include "railcast/world_spec.h"
@@ -17,15 +19,6 @@ namespace railcast {
 [[nodiscard]] std::string AlignmentFileText(const ImportedLine& line,
                                             const MapProjection& projection);
 
-/// The qualities of all lines as CSV, one row for each.
-[[nodiscard]] std::string QualityCsv(const std::vector<ImportedLine>& lines);
-/// The same as a table to be read.
-[[nodiscard]] std::string QualityTable(const std::vector<ImportedLine>& lines);
-/// The qualities of all lines' heights as CSV, one row for each that has heights.
-[[nodiscard]] std::string HeightsCsv(const std::vector<ImportedLine>& lines);
-/// All contradictions as CSV.
-[[nodiscard]] std::string ContradictionsCsv(const std::vector<ImportedLine>& lines);
-
 /// A track and a structure as scenario files have them, without keys that have their defaults.
 [[nodiscard]] Json JsonOf(TrackSpec track);
 [[nodiscard]] Json JsonOf(StructureSpec structure);
@@ -35,6 +28,16 @@ namespace railcast {
 [[nodiscard]] std::string WorldFileText(const ImportedLine& line,
                                         const LineWorld& world,
                                         bool has_elevation);
+
+/// Writes a line's alignment and its world.
+void WriteLine(const std::filesystem::path& out,
+               const ImportedLine& line,
+               const MapProjection& projection,
+               const LineWorld& world,
+               bool has_elevation);
+
+/// All contradictions as CSV.
+[[nodiscard]] std::string ContradictionsCsv(const std::vector<ImportedLine>& lines);
 
 /// What was not taken as it is.
 struct LeftOutOfMap {
@@ -47,10 +50,21 @@ struct LeftOutOfMap {
                                      const std::vector<ImportedLine>& lines,
                                      const std::vector<LineWorld>& worlds);
 
-/// The stretches of tracks that are not where the map has them (MovedTracksOf), as CSV.
-[[nodiscard]] std::string MovedCsv(const std::vector<ImportedLine>& lines,
-                                   const std::vector<LineWorld>& worlds);
-/// How much that is, as text; empty if all is.
-[[nodiscard]] std::string MovedText(const std::vector<LineWorld>& worlds);
+/// All rows of a kind as one; its reasons are without the names of tracks.
+[[nodiscard]] AccountRow SumOf(const std::vector<AccountRow>& rows, const std::string& what);
+
+/// Writes the tables in CSV: what became of the map, and how close lines and tracks are to it.
+void WriteTables(const std::filesystem::path& out,
+                 const std::vector<ImportedLine>& lines,
+                 const std::vector<LineWorld>& worlds,
+                 const std::vector<AccountRow>& account,
+                 const LeftOutOfMap& left_out);
+
+/// The same in short, to be read: the qualities of lines, the sums of the account with the greatest
+/// losses, how much was moved, and which lines were left out.
+[[nodiscard]] std::string TablesText(const std::vector<ImportedLine>& lines,
+                                     const std::vector<LineWorld>& worlds,
+                                     const std::vector<AccountRow>& account,
+                                     const std::vector<LeftOutLine>& left_out);
 
 }  // namespace railcast

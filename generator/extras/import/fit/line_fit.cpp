@@ -8,7 +8,7 @@
 
 #include "core/base/error.h"
 #include "generator/extras/import/fit/line_draft.h"
-#include "generator/extras/import/fit/plan_geometry.h"
+#include "generator/extras/import/fit/plan_model.h"
 #include "generator/extras/import/fit/plan_window.h"
 
 namespace railcast {

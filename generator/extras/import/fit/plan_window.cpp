@@ -6,7 +6,7 @@
 #include <unsupported/Eigen/LevenbergMarquardt>
 
 #include "core/rail/line/alignment_course.h"
-#include "generator/extras/import/fit/plan_geometry.h"
+#include "generator/extras/import/fit/plan_model.h"
 
 namespace railcast {
 namespace {

@@ -286,36 +286,37 @@ void ElevationMap::Raster::Read(GDALRasterBand& band) {
 ElevationMap::ElevationMap(const std::filesystem::path& file,
                            const std::string& crs,
                            const MapProjection& projection,
-                           const Eigen::AlignedBox2d& bounds_m) {
+                           const Eigen::AlignedBox2d& bounds_m)
+    : name_(ShownPath(file)) {
   CheckIsReadable(file);
   GDALAllRegister();
   GdalErrors gdal_errors;
-  const std::string name = ShownPath(file);
   const std::unique_ptr<GDALDataset> dataset(
       GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
   if (!dataset) {
     const std::string& reason = gdal_errors.first();
-    throw InputError(name + ": must be a raster of heights, such as GeoTIFF or an ESRI ASCII grid" +
+    throw InputError(name_ +
+                     ": must be a raster of heights, such as GeoTIFF or an ESRI ASCII grid" +
                      (reason.empty() ? "" : " (" + ShownText(reason) + ")"));
   }
   gdal_errors.Forget();
   if (std::string_view(dataset->GetDriverName()) == "AAIGrid") {
-    CheckAsciiGrid(name, ReadTextWhole(file));
+    CheckAsciiGrid(name_, ReadTextWhole(file));
   }
-  GDALRasterBand& band = BandOf(*dataset, name);
+  GDALRasterBand& band = BandOf(*dataset, name_);
   auto raster = std::make_unique<Raster>();
-  raster->places = PlacesOf(*dataset, name);
-  raster->system_from_map = TransformationFrom(projection, *dataset, crs, name);
+  raster->places = PlacesOf(*dataset, name_);
+  raster->system_from_map = TransformationFrom(projection, *dataset, crs, name_);
   raster->origin_m = projection.origin_m;
   raster->Choose(bounds_m, {band.GetXSize(), band.GetYSize()});
   if (std::int64_t{raster->num_columns} * raster->num_rows > kMostCells) {
-    throw InputError(name + ": must have at most " + std::to_string(kMostCells) +
+    throw InputError(name_ + ": must have at most " + std::to_string(kMostCells) +
                      " cells about the lines" +
                      Got(std::int64_t{raster->num_columns} * raster->num_rows));
   }
   raster->Read(band);
   if (!gdal_errors.first().empty()) {
-    throw InputError(name + ": must be readable to its end (" + ShownText(gdal_errors.first()) +
+    throw InputError(name_ + ": must be readable to its end (" + ShownText(gdal_errors.first()) +
                      ")");
   }
   // How far a step of 1 m leads in cells.
@@ -324,7 +325,7 @@ ElevationMap::ElevationMap(const std::filesystem::path& file,
       {middle_m, middle_m + Eigen::Vector2d(1.0, 0.0), middle_m + Eigen::Vector2d(0.0, 1.0)});
   cell_m_ = std::max(1.0 / (steps[1] - steps[0]).norm(), 1.0 / (steps[2] - steps[0]).norm());
   if (!std::isfinite(cell_m_)) {
-    throw InputError(name + ": must be in a coordinate system that covers the map");
+    throw InputError(name_ + ": must be in a coordinate system that covers the map");
   }
   raster_ = std::move(raster);
 }

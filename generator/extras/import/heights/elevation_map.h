@@ -26,6 +26,8 @@ class ElevationMap {
                const Eigen::AlignedBox2d& bounds_m);
   ~ElevationMap();
 
+  /// The file's name, for messages.
+  [[nodiscard]] const std::string& name() const { return name_; }
   /// Heights at places, linear between the middles of the four cells about each; absent where one
   /// of these has none.
   [[nodiscard]] std::vector<std::optional<double>> HeightsAt(
@@ -41,6 +43,7 @@ class ElevationMap {
 
  private:
   struct Raster;
+  std::string name_;
   std::unique_ptr<const Raster> raster_;
   double cell_m_{};
 };

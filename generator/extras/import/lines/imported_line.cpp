@@ -9,7 +9,7 @@
 #include "core/base/error.h"
 #include "core/rail/line/plan_course.h"
 #include "generator/extras/import/fit/line_fit.h"
-#include "generator/extras/import/fit/plan_geometry.h"
+#include "generator/extras/import/fit/plan_model.h"
 #include "generator/extras/import/lines/line_tags.h"
 #include "generator/extras/import/lines/speed_limits.h"
 

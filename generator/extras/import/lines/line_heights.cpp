@@ -116,6 +116,53 @@ std::vector<double> ChainagesOnGround(const RailMap& map,
   return chainages_m;
 }
 
+void CheckCovers(const RailMap& map,
+                 const std::vector<TrackLine>& tracks,
+                 const ElevationMap& elevation) {
+  for (const TrackLine& track : tracks) {
+    for (const std::size_t i : track.nodes) {
+      const MapNode& node = map.nodes[i];
+      if (elevation.Covers(node.place_m)) continue;
+      throw InputError(elevation.name() + ": must cover the lines to their ends (got none of " +
+                       track.name + " at " + NumberText(node.geographic_deg.x()) + ", " +
+                       NumberText(node.geographic_deg.y()) + " degrees)");
+    }
+  }
+}
+
+std::vector<HeightSample> HeightsOfModel(const ElevationMap& elevation,
+                                         const RailMap& map,
+                                         const TrackLine& track,
+                                         const ImportedLine& line) {
+  const std::vector<double> chainages_m = ChainagesOnGround(map, track, line, elevation.cell_m());
+  const Alignment alignment(line.alignment);
+  std::vector<Eigen::Vector2d> places_m;
+  for (const double s_m : chainages_m) {
+    places_m.emplace_back(alignment.At(s_m).position_m.head<2>());
+  }
+  const std::vector<std::optional<double>> heights_m = elevation.HeightsAt(places_m);
+  std::vector<HeightSample> samples;
+  for (std::size_t i = 0; i < places_m.size(); ++i) {
+    if (heights_m[i]) samples.push_back({chainages_m[i], *heights_m[i]});
+  }
+  if (samples.empty()) {
+    throw InputError(elevation.name() + ": must have a height along each line (got none for " +
+                     line.name + ")");
+  }
+  return samples;
+}
+
+std::vector<HeightSample> HeightsOfPoints(const RailMap& map,
+                                          const TrackLine& track,
+                                          const ImportedLine& line) {
+  std::vector<HeightSample> samples;
+  for (std::size_t i = 0; i < track.nodes.size(); ++i) {
+    const std::optional<double>& height_m = map.nodes[track.nodes[i]].height_m;
+    if (height_m) samples.push_back({line.chainages_m[i], *height_m});
+  }
+  return samples;
+}
+
 }  // namespace
 
 bool HasSurveyedCant(const RailMap& map, const TrackLine& track) {
@@ -123,8 +170,14 @@ bool HasSurveyedCant(const RailMap& map, const TrackLine& track) {
                              [&](std::size_t node) { return map.nodes[node].cant_mm.has_value(); });
 }
 
-void SetCants(const RailMap& map, const TrackLine& track, ImportedLine& line) {
-  if (!HasSurveyedCant(map, track)) return;
+void SetCants(const RailMap& map,
+              const TrackLine& track,
+              std::span<const ChainageRange> level,
+              ImportedLine& line) {
+  if (!HasSurveyedCant(map, track)) {
+    LevelCant(level, line.alignment);
+    return;
+  }
   const Alignment alignment(line.alignment);
   std::vector<ChainageValue> cants_mm;
   for (std::size_t i = 0; i < track.nodes.size(); ++i) {
@@ -172,51 +225,39 @@ void LevelCant(std::span<const ChainageRange> level, AlignmentSpec& line) {
   for (const double s_m : chainages_m) AppendCant(s_m, cant_mm(s_m), length_m, line.cants_mm);
 }
 
-void CheckCovers(const RailMap& map,
-                 const std::vector<TrackLine>& tracks,
-                 const ElevationMap& elevation,
-                 const std::string& name) {
-  for (const TrackLine& track : tracks) {
-    for (const std::size_t i : track.nodes) {
-      const MapNode& node = map.nodes[i];
-      if (elevation.Covers(node.place_m)) continue;
-      throw InputError(name + ": must cover the lines to their ends (got none of " + track.name +
-                       " at " + NumberText(node.geographic_deg.x()) + ", " +
-                       NumberText(node.geographic_deg.y()) + " degrees)");
-    }
-  }
+Eigen::AlignedBox2d ElevationBounds(const RailMap& map, const TrackLine& track) {
+  constexpr double kMargin_m = 500.0;
+  Eigen::AlignedBox2d bounds_m;
+  for (const std::size_t node : track.nodes) bounds_m.extend(map.nodes[node].place_m);
+  const Eigen::Vector2d margin_m = Eigen::Vector2d::Constant(kMargin_m);
+  return {bounds_m.min() - margin_m, bounds_m.max() + margin_m};
 }
 
-void SetHeights(const RailMap& map,
-                const TrackLine& track,
-                const ElevationMap& elevation,
-                const std::string& name,
-                ImportedLine& line) {
-  const std::vector<double> chainages_m = ChainagesOnGround(map, track, line, elevation.cell_m());
-  const Alignment alignment(line.alignment);
-  std::vector<Eigen::Vector2d> places_m;
-  for (const double s_m : chainages_m) {
-    places_m.emplace_back(alignment.At(s_m).position_m.head<2>());
-  }
-  const std::vector<std::optional<double>> heights_m = elevation.HeightsAt(places_m);
-  std::vector<HeightSample> samples;
-  for (std::size_t i = 0; i < places_m.size(); ++i) {
-    if (heights_m[i]) samples.push_back({chainages_m[i], *heights_m[i]});
-  }
-  if (samples.empty()) {
-    throw InputError(name + ": must have a height along each line (got none for " + line.name +
-                     ")");
-  }
+std::unique_ptr<const ElevationMap> ReadElevation(const std::filesystem::path& file,
+                                                  const std::string& crs,
+                                                  const MapProjection& projection,
+                                                  const RailMap& map,
+                                                  const std::vector<TrackLine>& tracks) {
+  Eigen::AlignedBox2d bounds_m;
+  for (const TrackLine& track : tracks) bounds_m.extend(ElevationBounds(map, track));
+  auto elevation = std::make_unique<const ElevationMap>(file, crs, projection, bounds_m);
+  CheckCovers(map, tracks, *elevation);
+  return elevation;
+}
+
+std::optional<std::string> SetHeights(const RailMap& map,
+                                      const TrackLine& track,
+                                      const ElevationMap* elevation,
+                                      ImportedLine& line) {
+  std::vector<HeightSample> samples = elevation != nullptr
+                                          ? HeightsOfModel(*elevation, map, track, line)
+                                          : HeightsOfPoints(map, track, line);
+  if (elevation == nullptr && samples.size() < 2) return std::nullopt;
   FitHeights(std::move(samples), line);
-}
-
-void SetHeights(const RailMap& map, const TrackLine& track, ImportedLine& line) {
-  std::vector<HeightSample> samples;
-  for (std::size_t i = 0; i < track.nodes.size(); ++i) {
-    const std::optional<double>& height_m = map.nodes[track.nodes[i]].height_m;
-    if (height_m) samples.push_back({line.chainages_m[i], *height_m});
-  }
-  if (samples.size() >= 2) FitHeights(std::move(samples), line);
+  if (line.height_quality->p99_m <= kFarthestHeight_m) return std::nullopt;
+  return "its heights must lie within " + NumberText(kFarthestHeight_m) +
+         " m of gradients that a railway can have (got " + ShortText(line.height_quality->p99_m) +
+         " m for one in a hundred)";
 }
 
 }  // namespace railcast

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "generator/extras/import/fit/plan_geometry.h"
+#include "generator/extras/import/fit/plan_model.h"
 
 namespace railcast {
 namespace {

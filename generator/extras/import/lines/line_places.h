@@ -1,14 +1,11 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <map>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "core/rail/line/plan_course.h"
@@ -25,6 +22,9 @@ struct LineStretch {
   double end_s_m{};
   std::size_t way{};  ///< The first way of the map that is on it.
 };
+
+/// By so much tags of tracks beside each other may begin and end at different chainages.
+inline constexpr double kSameEnd_m = 15.0;
 
 /// The ways of a line from node to node.
 /// @param chainages_m Of the line's nodes.
@@ -73,13 +73,6 @@ class WayPlaces {
 
 /// Whether a step leads to where its way is drawn.
 [[nodiscard]] bool IsDrawnForward(const RailMap& map, const WayStep& step);
-
-/// Whether a value of OpenStreetMap says that a thing is there: anything but "" and "no", of which
-/// GeoJSON makes `false`, and Geofabrik "F" and 0.
-[[nodiscard]] inline bool IsThere(std::string_view value) {
-  constexpr auto kNo = std::to_array<std::string_view>({"", "no", "false", "F", "0"});
-  return std::ranges::find(kNo, value) == kNo.end();
-}
 
 /// Where something lies against a line.
 struct LinePlace {

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "core/rail/line/alignment_course.h"
-#include "generator/extras/import/fit/plan_geometry.h"
+#include "generator/extras/import/fit/plan_model.h"
 #include "generator/extras/import/lines/line_tags.h"
 
 namespace railcast {

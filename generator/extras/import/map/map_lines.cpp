@@ -247,20 +247,6 @@ std::size_t ThinFixes(MapLine& line) {
   return num_before - line.points_deg.size();
 }
 
-std::string UnreadTrackTag(const MapTags& tags) {
-  constexpr std::string_view kOthers =
-      " platform platform_edge station halt tram_stop stop signal_box crossing level_crossing "
-      "crossing_box yard depot workshop wash roundhouse engine_shed site facility museum fuel "
-      "loading_ramp service_station abandoned razed dismantled historic proposed planned ";
-  for (const auto& [key, value] : tags) {
-    if (value.empty() || LowerCase(key) != "railway") continue;
-    if (kOthers.find(" " + LowerCase(value) + " ") == std::string_view::npos) {
-      return ShownText(key) + "=" + ShownText(value);
-    }
-  }
-  return {};
-}
-
 RailMap MapOfLines(std::vector<MapLine> lines, std::vector<Remark> remarks) {
   RailMap map;
   map.remarks = std::move(remarks);

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -56,6 +55,21 @@ using MapTags = std::map<std::string, std::string, std::less<>>;
 /// or "railway=disused", but what stands beside tracks or is not there. Empty if there is none.
 [[nodiscard]] std::string UnreadTrackTag(const MapTags& tags);
 
+/// Whether OpenStreetMap's tags are those of a platform beside tracks, and not of one for buses or
+/// ships.
+[[nodiscard]] bool IsPlatform(const MapTags& tags);
+
+/// Whether OpenStreetMap's tags are those of a thing of which import makes something.
+[[nodiscard]] bool IsThing(const MapTags& tags);
+
+/// Whether a value of OpenStreetMap says that a thing is there: anything but "" and "no", of which
+/// GeoJSON makes `false`, and Geofabrik "F" and 0.
+[[nodiscard]] bool IsThere(std::string_view value);
+
+/// Whether the tags of a way say that it lies in a tunnel, or on a bridge; never both.
+[[nodiscard]] bool IsTunnel(const MapTags& tags);
+[[nodiscard]] bool IsBridge(const MapTags& tags);
+
 /// What the licence of OpenStreetMap asks for.
 inline constexpr const char* kOpenStreetMapAttribution =
     "(c) OpenStreetMap contributors, ODbL 1.0 (https://www.openstreetmap.org/copyright)";
@@ -96,25 +110,6 @@ struct MapThing {
   std::vector<Eigen::Vector2d> places_m;        ///< As many, once the map is projected.
   MapTags tags;
 };
-
-/// Whether OpenStreetMap's tags are those of a platform beside tracks, and not of one for buses or
-/// ships.
-[[nodiscard]] inline bool IsPlatform(const MapTags& tags) {
-  if (HasOneOf(TagOf(tags, "railway"), {"platform"})) return true;
-  if (TagOf(tags, "public_transport") != "platform" || !TagOf(tags, "highway").empty())
-    return false;
-  constexpr auto kOthers =
-      std::to_array<std::string_view>({"bus", "trolleybus", "ferry", "aerialway", "share_taxi"});
-  return std::ranges::none_of(kOthers,
-                              [&](std::string_view key) { return TagOf(tags, key) == "yes"; });
-}
-
-/// Whether OpenStreetMap's tags are those of a thing of which import makes something.
-[[nodiscard]] inline bool IsThing(const MapTags& tags) {
-  return IsPlatform(tags) ||
-         HasOneOf(TagOf(tags, "railway"),
-                  {"level_crossing", "crossing", "buffer_stop", "signal", "milestone", "derail"});
-}
 
 /// The railway tracks of a map. Tracks meet where ways share a node.
 struct RailMap {

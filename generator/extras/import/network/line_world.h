@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -126,42 +125,9 @@ void AddSideTracks(const RailMap& map,
 /// @pre The track has a run.
 [[nodiscard]] ChainageRange RangeInRun(const LineWorld& world, const WorldTrack& track);
 
-/// A text as a field of CSV.
-[[nodiscard]] std::string QuotedField(std::string text);
-
-/// Why something is left out at a chainage, or within a metre of it: that which came from a source,
-/// or else one of which nobody knows where from.
-[[nodiscard]] std::string ReasonAt(const LineWorld& world,
-                                   const std::string& what,
-                                   double s_m,
-                                   std::size_t source);
-
 /// Why a switch is no turnout that is on none of a world's tracks.
 inline constexpr const char* kOnNoTrack = "it lies on no track of the world";
 /// Why one at an end of a line is none.
 inline constexpr const char* kAtLinesEnd = "the line ends there";
-
-/// What ReasonAt says where nothing was left out; there is no such place.
-inline constexpr const char* kNoReason = "nothing says why";
-
-/// What lies between two chainages of a track.
-struct TaggedStretch {
-  std::size_t track{};
-  double begin_s_m{};
-  double end_s_m{};
-
-  [[nodiscard]] double length_m() const { return end_s_m - begin_s_m; }
-};
-
-/// By so much tags of tracks beside each other may begin and end at different chainages.
-inline constexpr double kSameEnd_m = 15.0;
-
-/// Whether the tags of a way say that it lies in a tunnel, or on a bridge; never both.
-[[nodiscard]] bool IsTunnel(const MapTags& tags);
-[[nodiscard]] bool IsBridge(const MapTags& tags);
-
-/// Where the ways of a world's tracks have something, in centimetres and on the tracks.
-[[nodiscard]] std::vector<TaggedStretch> StretchesOfAll(
-    const RailMap& map, const LineWorld& world, const std::function<bool(const MapTags&)>& has);
 
 }  // namespace railcast

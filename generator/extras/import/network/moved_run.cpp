@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "generator/extras/import/fit/plan_geometry.h"
+#include "generator/extras/import/fit/plan_model.h"
 
 namespace railcast {
 namespace {

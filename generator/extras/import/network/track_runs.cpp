@@ -10,7 +10,6 @@
 
 #include "generator/extras/import/lines/line_tags.h"
 #include "generator/extras/import/lines/speed_limits.h"
-#include "generator/extras/import/network/line_world.h"
 
 namespace railcast {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "core/rail/line/plan_course.h"
 #include "core/rail/network/turnout_place.h"
-#include "generator/extras/import/fit/plan_geometry.h"
+#include "generator/extras/import/fit/plan_model.h"
 
 namespace railcast {
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,19 @@ void AddStructures(const RailMap& map,
 /// stretches of the others that it has room for need none of their own. No tunnel is where a track
 /// that has none on the map would run in it; a bridge carries such tracks, too.
 void AddWayStructures(const RailMap& map, LineWorld& world);
+
+/// What lies between two chainages of a track.
+struct TaggedStretch {
+  std::size_t track{};
+  double begin_s_m{};
+  double end_s_m{};
+
+  [[nodiscard]] double length_m() const { return end_s_m - begin_s_m; }
+};
+
+/// Where the ways of a world's tracks have something, in centimetres and on the tracks.
+[[nodiscard]] std::vector<TaggedStretch> StretchesOfAll(
+    const RailMap& map, const LineWorld& world, const std::function<bool(const MapTags&)>& has);
 
 /// Adds tunnels where the ways of a world's tracks have them.
 ///

@@ -8,7 +8,6 @@
 #include "generator/extras/import/lines/track_lines.h"
 #include "generator/extras/import/map/rail_map.h"
 #include "generator/extras/import/network/line_world.h"
-#include "generator/extras/import/structures/way_ledger.h"
 
 namespace railcast {
 
@@ -45,19 +44,50 @@ inline constexpr const char* kNearNoLine =
 /// sides that a track of the map passes at 4.5 m at most.
 [[nodiscard]] std::vector<AccountRow> AccountOf(const RailMap& map, const WorldsOfMap& made);
 
+// The parts of which the account is made.
+
+/// From the weakest to the strongest: of what is said of a stretch of a way, the strongest holds.
+enum class LedgerRank {
+  kOfLine,       ///< Its line cannot stand.
+  kUnused,       ///< It is beside a line, but does not run along it.
+  kOfRun,        ///< It runs along a line, but no track can be there.
+  kOfStructure,  ///< Its track is there, its tunnel or bridge is not.
+  kMade,
+};
+
+/// A stretch of a way and what became of it.
+struct LedgerEntry {
+  double from_m{};  ///< Along the way.
+  double to_m{};
+  LedgerRank rank{};
+  std::string reason{};
+
+  [[nodiscard]] double length_m() const { return to_m - from_m; }
+};
+
+/// What became of a way, stretch by stretch in its order, every part of it once.
+struct WayAccount {
+  std::vector<LedgerEntry> track{};
+  std::vector<LedgerEntry> structure{};  ///< Its tunnel or bridge; empty if it has neither.
+};
+
+/// What became of each way of a map.
+[[nodiscard]] std::vector<WayAccount> AccountOfWays(const RailMap& map, const WorldsOfMap& made);
+
 /// The rows of all platforms.
-/// @param tracks What became of each way (WayLedger::Of).
-[[nodiscard]] std::vector<AccountRow> PlatformRows(
-    const RailMap& map,
-    const WorldsOfMap& made,
-    const std::vector<std::vector<LedgerEntry>>& tracks);
+/// @param ways What became of each way.
+[[nodiscard]] std::vector<AccountRow> PlatformRows(const RailMap& map,
+                                                   const WorldsOfMap& made,
+                                                   const std::vector<WayAccount>& ways);
 
-/// All rows of a kind as one; its reasons are without the names of tracks.
-[[nodiscard]] AccountRow SumOf(const std::vector<AccountRow>& rows, const std::string& what);
+/// Why something is left out at a chainage, or within a metre of it: that which came from a source,
+/// or else one of which nobody knows where from.
+[[nodiscard]] std::string ReasonAt(const LineWorld& world,
+                                   const std::string& what,
+                                   double s_m,
+                                   std::size_t source);
 
-/// The rows as CSV.
-[[nodiscard]] std::string AccountCsv(const std::vector<AccountRow>& rows);
-/// The sums of all kinds as a table to be read, and the greatest losses.
-[[nodiscard]] std::string AccountTable(const std::vector<AccountRow>& rows);
+/// What ReasonAt says where nothing was left out; there is no such place.
+inline constexpr const char* kNoReason = "nothing says why";
 
 }  // namespace railcast

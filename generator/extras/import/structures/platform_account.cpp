@@ -83,10 +83,8 @@ class SegmentGrid {
 
 class PlatformAccount {
  public:
-  PlatformAccount(const RailMap& map,
-                  const WorldsOfMap& made,
-                  const std::vector<std::vector<LedgerEntry>>& tracks)
-      : map_(map), made_(made), tracks_(tracks), segments_(map), worlds_of_(map.ways.size()) {
+  PlatformAccount(const RailMap& map, const WorldsOfMap& made, const std::vector<WayAccount>& ways)
+      : map_(map), made_(made), ways_(ways), segments_(map), worlds_of_(map.ways.size()) {
     for (std::size_t i = 0; i < made.worlds.size(); ++i) {
       places_.emplace_back(map, made.tracks[i], made.lines[i]);
       for (const WorldTrack& track : made.worlds[i].tracks) {
@@ -175,7 +173,7 @@ class PlatformAccount {
       if (*reason == kNoReason) reason = kNoTrackNear;
     }
     if (reason) return reason;
-    const std::vector<LedgerEntry>& parts = tracks_[passing.segment.way];
+    const std::vector<LedgerEntry>& parts = ways_[passing.segment.way].track;
     const double along_m = passing.segment.along_m + passing.share * passing.segment.step_m.norm();
     const auto part = std::ranges::lower_bound(parts, along_m, {}, &LedgerEntry::to_m);
     if (part == parts.end()) return "its track is in no world: " + made_.otherwise;
@@ -214,7 +212,7 @@ class PlatformAccount {
 
   const RailMap& map_;
   const WorldsOfMap& made_;
-  const std::vector<std::vector<LedgerEntry>>& tracks_;  ///< What became of each way.
+  const std::vector<WayAccount>& ways_;
   SegmentGrid segments_;
   std::vector<std::set<std::size_t>> worlds_of_;  ///< For each way, the worlds with tracks of it.
   std::deque<LinePlaces> places_;
@@ -224,8 +222,8 @@ class PlatformAccount {
 
 std::vector<AccountRow> PlatformRows(const RailMap& map,
                                      const WorldsOfMap& made,
-                                     const std::vector<std::vector<LedgerEntry>>& tracks) {
-  const PlatformAccount account(map, made, tracks);
+                                     const std::vector<WayAccount>& ways) {
+  const PlatformAccount account(map, made, ways);
   std::vector<AccountRow> rows;
   for (std::size_t i = 0; i < map.things.size(); ++i) {
     if (IsPlatform(map.things[i].tags)) rows.push_back(account.RowOf(i));

@@ -11,7 +11,6 @@
 
 #include "core/rail/network/world_tracks.h"
 #include "core/rail/structures/structure_track.h"
-#include "generator/extras/import/network/line_world.h"
 
 namespace railcast {
 namespace {

@@ -64,7 +64,7 @@ TEST(ImportedLine, TakesSurveyedCantsWithTheOuterRailHigher) {
   const auto cants = [&] {
     const TrackLine track = FindLines(map, 0.0).front();
     ImportedLine line = ImportLine(map, track, {});
-    SetCants(map, track, line);
+    SetCants(map, track, {}, line);
     return line.alignment;
   };
   const AlignmentSpec left = cants();
@@ -93,7 +93,7 @@ TEST(ImportedLine, HasNoCantWhereASurveyedLineSaysNothing) {
   ImportedLine line = ImportLine(map, track, {});
   // The first point with a cant, which is 0 there, and one in the straight with none.
   map.nodes[25].cant_mm = 60.0;
-  SetCants(map, track, line);
+  SetCants(map, track, {}, line);
   const double from_west_m = Alignment(line.alignment).At(0.0).position_m.x() < 600.0
                                  ? 0.0
                                  : Alignment(line.alignment).length_m();
@@ -124,7 +124,7 @@ TEST(ImportedLine, LeansByItsOwnCurveBesideASharperOne) {
   map.ways = {way};
   const TrackLine track = FindLines(map, 0.0).front();
   ImportedLine line = ImportLine(map, track, {});
-  SetCants(map, track, line);
+  SetCants(map, track, {}, line);
   const Alignment alignment(line.alignment);
   for (const ChainageValue& entry : line.alignment.cants_mm) {
     const double curvature_per_m = alignment.At(entry.s_m).curvature_per_m;
@@ -137,7 +137,7 @@ TEST(ImportedLine, HasCantsByTheRuleWithoutASurvey) {
   const RailMap map = Corner();
   const TrackLine track = FindLines(map, 0.0).front();
   ImportedLine line = ImportLine(map, track, {});
-  SetCants(map, track, line);
+  SetCants(map, track, {}, line);
   EXPECT_TRUE(line.alignment.cants_mm.empty());
 }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "generator/extras/import/fit/line_draft.h"
-#include "generator/extras/import/fit/plan_geometry.h"
+#include "generator/extras/import/fit/plan_model.h"
 
 namespace railcast {
 namespace {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "generator/extras/import/import_files.h"
 #include "generator/extras/import/lines/imported_line.h"
 #include "generator/extras/import/lines/track_lines.h"
 #include "generator/extras/import/map/rail_map.h"
