@@ -14,9 +14,9 @@ RemarkReceiver& Receiver() {
   return receiver;
 }
 
-/// The cloud of a place that may name one of its points: "a.ply: point 3".
+/// The cloud of a place that may name a point or line of it: "a.ply: point 3", "a.xyz: line 7".
 std::string_view WithoutPoint(std::string_view place) {
-  return place.substr(0, place.rfind(": point "));
+  return place.substr(0, std::min(place.rfind(": point "), place.rfind(": line ")));
 }
 
 }  // namespace

@@ -41,9 +41,6 @@ constexpr auto kFormats = std::to_array<UnreadFormat>({
     {".npz", "", "an archive of NumPy",
      "write x, y, z and reflectance of its points as '<f4' to "
      "%n.bin, a file of KITTI's"},
-    {".xyz", "", "a cloud as text", "pdal translate -r readers.text %f %n.las (or CloudCompare)"},
-    {".asc", "", "a cloud as text", "CloudCompare -O %f -C_EXPORT_FMT PLY -SAVE_CLOUDS"},
-    {".pts", "", "a cloud as text", "pdal translate -r readers.text %f %n.las (or CloudCompare)"},
     {".ptx", "", "a cloud as text", "pdal translate -r readers.text %f %n.las (or CloudCompare)"},
     {".tum", "", "poses", "name the clouds, and these with --poses"},
     {".shp", "", "a shapefile", "ogr2ogr %n.geojson %f"},
@@ -57,13 +54,15 @@ constexpr auto kFormats = std::to_array<UnreadFormat>({
     {".gz", "\x1F\x8B\x08", "a file that gzip packed", "gunzip %f"},
     {".bz2", "BZh", "a file that bzip2 packed", "bunzip2 %f"},
     {".7z", "7z\xBC\xAF", "an archive of 7-Zip", "7z x %f"},
+    {"", "ncols ", "a grid of heights", "railcast-generate import takes it by --heights"},
     {"", "version https://git-lfs", "a pointer of Git LFS to the file", "git lfs pull fetches it"},
 });
 
 constexpr auto kTextEndings = std::to_array<std::string_view>({".txt", ".csv"});
 
-/// What a file of text holds, by the numbers of its first line of numbers; empty if it has none.
-std::string AdviceOnText(std::string_view begin) {
+/// What a file of text holds, by the numbers of its first line of numbers; empty if it has none, or
+/// is a cloud, as where it is named.
+std::string AdviceOnText(std::string_view begin, bool is_named) {
   while (const auto line = TakeLine(begin)) {
     std::string plain(*line);
     std::ranges::replace_if(
@@ -76,17 +75,19 @@ std::string AdviceOnText(std::string_view begin) {
     const std::string numbers = NumberText(words.size()) + " numbers a line";
     if (words.size() == 8 || words.size() == 12) {
       return "is text with " + numbers + std::string(kUnread) +
-             "if these are poses, name the clouds, and them with --poses";
+             "if these are poses, name the clouds, and them with --poses; if it is a cloud, name "
+             "its columns with --columns";
     }
-    return "is text with " + numbers + std::string(kUnread) +
-           "if it is a cloud, CloudCompare or pdal makes a .ply, .pcd or .las of it";
+    if (is_named) return {};
+    return "is text with " + numbers +
+           ", which is not read in a folder: if it is a cloud, name the file itself";
   }
   return {};
 }
 
 }  // namespace
 
-std::string AdviceOnFile(const std::filesystem::path& file) {
+std::string AdviceOnFile(const std::filesystem::path& file, bool is_named) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return {};
   std::string begin(4096, '\0');
@@ -94,7 +95,9 @@ std::string AdviceOnFile(const std::filesystem::path& file) {
   in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
   begin.resize(static_cast<std::size_t>(in.gcount()));
   const std::string ending = LowerCase(file.extension().string());
-  if (std::ranges::find(kTextEndings, ending) != kTextEndings.end()) return AdviceOnText(begin);
+  if (std::ranges::count(kTextEndings, ending) > 0) {
+    if (std::string advice = AdviceOnText(begin, is_named); !advice.empty()) return advice;
+  }
   const auto format = std::ranges::find_if(kFormats, [&](const UnreadFormat& known) {
     return (!ending.empty() && known.ending == ending) ||
            (!known.begin.empty() && begin.starts_with(known.begin));

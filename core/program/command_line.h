@@ -106,8 +106,14 @@ inline Option AddThreads(ProgramOptions& command,
 /// Adds the option --isa.
 void AddIsa(ProgramOptions& command, std::string& isa);
 
-/// Adds the options --topic, --frame-id and --kitti-columns, for WithChoice().
+/// Adds the options --columns, --kitti-columns, --topic and --frame-id, for WithChoice().
 inline void AddSourceChoice(ProgramOptions& command, SourceChoice& choice) {
+  command
+      .AddOption(
+          "--columns", choice.columns,
+          "Names of the columns of clouds in text, such as x,y,z,_,intensity, where _ is one "
+          "that is not used; default: those of the file's header, else x,y,z")
+      .Check(NonEmpty());
   command
       .AddOption("--kitti-columns", choice.kitti_columns,
                  "Columns of points in .bin files: nuscenes, waymo, float64, or the number of "

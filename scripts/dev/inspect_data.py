@@ -14,7 +14,7 @@ PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs/results/inspected.md"
 BEGIN, END = "<!-- table -->\n", "<!-- end of table -->\n"
 HEAD = ("| recording | what | sensor | frames | insert | weather | survey | fit | remarks |\n"
         "|---|---|---|---|---|---|---|---|---|\n")
-ENDINGS = (".pcap", ".pcapng", ".mcap", ".db3", ".pcd", ".ply", ".bin", ".las")
+ENDINGS = (".pcap", ".pcapng", ".mcap", ".db3", ".pcd", ".ply", ".bin", ".las", ".xyz", ".pts", ".asc", ".pc")
 # Folders of messages of all kinds, of which hardly any has points.
 OTHERS = ("mcap/conformance", "rosbag2/", "meshes", "mcap/spec")
 SHORT = {"yes": "yes", "with an option": "option", "no": "no"}

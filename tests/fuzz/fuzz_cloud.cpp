@@ -5,6 +5,7 @@
 #include "core/base/error.h"
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/cloud/las_reader.h"
+#include "core/io/cloud/text_cloud.h"
 #include "core/io/recording/cloud_frame.h"
 #include "tests/fuzz/fuzz_target.h"
 
@@ -83,8 +84,10 @@ void CheckRewriting(char kind, const CloudFile& file) {
 
 void ReadFile(char kind, const std::string& bytes) {
   try {
-    if (kind == 'a') {
-      const Cloud cloud = ParseLas("fuzz", bytes);
+    if (kind == 'a' || kind == 't' || kind == 'T') {
+      const Cloud cloud = kind == 'a'
+                              ? ParseLas("fuzz", bytes)
+                              : ParseTextCloud("fuzz", bytes, kind == 'T' ? "x,_,ring,y,z" : "");
       CheckCloud(cloud);
       return CheckFrame(MakeCloudFrame(cloud, "fuzz"));
     }
@@ -105,7 +108,7 @@ void ReadFile(char kind, const std::string& bytes) {
 }  // namespace railcast
 
 /// Entry point for libFuzzer. The first byte selects the format of the rest: p PCD, l PLY, k KITTI,
-/// a LAS; P and L are files of a railcast sequence.
+/// a LAS, t text, T text with chosen columns; P and L are files of a railcast sequence.
 RAILCAST_FUZZ_TARGET(cloud) {
   if (size == 0) return 0;
   railcast::ReadFile(static_cast<char>(data[0]),

@@ -270,6 +270,77 @@ TEST(CloudMutants, OfPlyAreNeverReadWrongWithoutAWord) {
   CheckSection("PLY", {&of_binary, &of_text});
 }
 
+/// What happens to text without a header of a format, behind its first line.
+void TryFirstLine(Mutants& mutants, const std::string& first) {
+  const std::string& good = mutants.good();
+  const std::string rows = good.substr(first.size());
+  mutants.Try("the first line lost", "", rows);
+  mutants.Try("the first line doubled", "", first + good);
+  mutants.Try("the first line as a comment", "", "# " + good);
+  mutants.Try("two clouds in one file", "", good + good);
+  mutants.TryHarmless("a comment in front", "// made by hand\n" + good);
+  mutants.TryHarmless("semicolons for blanks", AllReplaced(good, " ", ";"));
+  mutants.TryHarmless("commas and blanks for blanks", AllReplaced(good, " ", ", "));
+  mutants.TryHarmless("a separator at the end of lines",
+                      AllReplaced(AllReplaced(good, " ", ","), "\n", ",\n"));
+  mutants.TryHarmless("a byte order mark", "\xEF\xBB\xBF" + good);
+  std::string wide = "\xFF\xFE";
+  for (const char letter : good) wide += {letter, '\0'};
+  mutants.TryHarmless("UTF-16", wide);
+  for (const char* unit : {"units: mm", "units: ft", "unit of length: cm"}) {
+    mutants.Try("another unit in a comment", unit, std::string("# ") + unit + "\n" + good);
+  }
+}
+
+void TryNames(Mutants& mutants, const std::string& names) {
+  const std::string rows = mutants.good().substr(names.size());
+  const auto with = [&](const std::string& what, const std::string& other) {
+    mutants.Try(what, other, other + rows);
+  };
+  for (const std::string name : kScanNames) {
+    const std::string behind = name == "time" ? name : name + " ";
+    with("a name lost", Replaced(names, behind, ""));
+    with("a name doubled", Replaced(names, behind, name + " " + behind));
+  }
+  for (const std::string axis : {"x", "y", "z"}) {
+    with("an axis by another name", Replaced(names, axis + " ", "a "));
+    with("an axis by the name of another", Replaced(names, axis + " ", axis == "x" ? "y " : "x "));
+    for (const char* unit : {"mm", "cm", "ft", "deg", "rad", "km"}) {
+      with("an axis in another unit", Replaced(names, axis + " ", axis + " [" + unit + "] "));
+      with("an axis in another unit", Replaced(names, axis + " ", axis + "(" + unit + ") "));
+    }
+  }
+  mutants.TryHarmless("names in capitals", Replaced(names, "x y z", "X Y Z") + rows);
+  mutants.TryHarmless("names in quotes", Replaced(names, "x y z", R"("x" "y" "z")") + rows);
+  mutants.TryHarmless("names with the unit", Replaced(names, "x y z", "x [m] y [m] z[m]") + rows);
+  mutants.TryHarmless("names as CloudCompare writes them", "//" + names + rows);
+}
+
+TEST(CloudMutants, OfTextAreNeverReadWrongWithoutAWord) {
+  constexpr const char* kNoNumber = "nothing says how many points there are";
+  const std::string rows = TextRows(MakeScanPoints());
+  const std::string number = NumberText(kScanRings * kScanColumns) + "\n";
+  Mutants counted("text, number of points", "a.pts", number + rows, ReadRecordingWhole);
+  TryFirstLine(counted, number);
+  for (const char* num : {"", "0", "1", "479", "481", "960", "480.0", "480.5", "-480", "480 1"}) {
+    counted.Try("number of points changed", num, num + ("\n" + rows));
+  }
+  TryText(counted, number);
+  TryCuts(counted, 211);
+  counted.Excuse("a byte lost", kDigitsLost);
+  const std::string names = "x y z intensity ring time\n";
+  Mutants named("text, names of columns", "a.xyz", names + rows, ReadRecordingWhole);
+  TryFirstLine(named, names);
+  TryNames(named, names);
+  TryText(named, names);
+  TryCuts(named, 211);
+  for (const char* change : {"a line lost", "a line doubled", "cut off"}) {
+    named.Excuse(change, kNoNumber);
+  }
+  named.Excuse("a byte lost", kDigitsLost);
+  CheckSection("Text", {&counted, &named});
+}
+
 /// float32 numbers of the points.
 template <typename Number = float>
 std::string Numbers(const std::vector<ScanPoint>& points, const std::vector<std::size_t>& columns) {

@@ -10,6 +10,7 @@
 #include "core/base/unit_comment.h"
 #include "core/io/cloud/las_reader.h"
 #include "core/io/cloud/pcd_encoder.h"
+#include "core/io/cloud/text_cloud.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
 
@@ -144,9 +145,10 @@ CloudFile ParseCloudFile(const std::filesystem::path& file,
     throw InputError(ShownPath(file) + ": must be a " + ReadableExtensions(true) + " file");
   }
   if (columns.empty()) return format->parse(ShownPath(file), bytes, second);
-  if (!format->dataset) {
-    throw InputError(ShownPath(file) + ": must be a .bin file for its columns to be chosen (got " +
-                     columns + ")");
+  if (!format->dataset || !IsKittiColumns(columns)) {
+    const bool is_named = IsTextColumns(columns);
+    throw InputError(ShownPath(file) + ": must be a " + (is_named ? "cloud in text" : ".bin file") +
+                     " for its columns to be chosen (got " + columns + ")");
   }
   return ParseKittiColumns(ShownPath(file), bytes, second, columns);
 }
@@ -158,6 +160,7 @@ void CheckUnitComment(const std::string& file, std::string_view comment) {
 
 Cloud ReadCloud(const std::filesystem::path& file, const std::string& columns) {
   if (columns.empty() && IsLasFile(file)) return ReadLas(file);
+  if (IsTextCloud(file)) return ReadTextCloud(file, columns);
   std::optional<std::string> second;
   if (const auto beside = SecondFileOf(file)) second = ReadFileWhole(*beside);
   return ParseCloudFile(file, ReadFileWhole(file), second, columns).cloud;

@@ -84,8 +84,9 @@ void TurnLeft(const Cloud& cloud, std::vector<std::uint8_t>& rows);
 [[nodiscard]] std::optional<std::filesystem::path> SecondFileOf(const std::filesystem::path& file);
 
 /// Reads a cloud file. A .bin file takes its labels from ../labels if they are there.
-/// @throws InputError with one line if the file is not a .pcd, .ply, .bin or .las, cannot be read,
-///   is damaged, or says that its positions are not in metres.
+/// @param columns One of IsKittiColumns() or, of text, IsTextColumns(); empty = none was chosen.
+/// @throws InputError with one line if the file is not a .pcd, .ply, .bin, .las or IsTextCloud(),
+///   cannot be read, is damaged, or says that its positions are not in metres.
 [[nodiscard]] Cloud ReadCloud(const std::filesystem::path& file, const std::string& columns = {});
 
 /// Throws if a comment of a header says that its unit of length is another than metres, as in

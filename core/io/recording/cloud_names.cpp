@@ -9,6 +9,7 @@
 #include "core/base/text.h"
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/cloud/las_reader.h"
+#include "core/io/cloud/text_cloud.h"
 #include "core/io/recording/cloud_stem.h"
 #include "core/io/recording/recording_kinds.h"
 #include "railcast/io/cloud_files.h"
@@ -59,7 +60,7 @@ void SortNaturally(std::vector<fs::path>& paths) {
 }
 
 bool IsCloudFile(const fs::path& file) {
-  return FindReader(file) != nullptr || IsLasFile(file);
+  return FindReader(file) != nullptr || IsLasFile(file) || IsTextCloud(file);
 }
 
 bool IsKittiFile(const fs::path& file) {
@@ -75,7 +76,8 @@ CloudSeries CloudFilesIn(const fs::path& directory) {
   for (const auto& entry :
        fs::directory_iterator(is_part ? "." / directory.parent_path() : directory, error)) {
     const bool is_hidden = entry.path().filename().native().starts_with('.');
-    if (!is_hidden && IsCloudFile(entry.path())) files.push_back(entry.path());
+    const bool is_frame = IsCloudFile(entry.path()) && !IsTextTable(entry.path());
+    if (!is_hidden && is_frame) files.push_back(entry.path());
   }
   SortNaturally(files);
   CheckStemsDiffer(files);
@@ -111,7 +113,7 @@ std::string ColumnsBehind(const fs::path& source) {
   const std::size_t mark = text.rfind(':');
   if (mark == std::string::npos) return {};
   const std::string columns = text.substr(mark + 1);
-  return IsKittiColumns(columns) ? columns : std::string();
+  return IsKittiColumns(columns) || IsTextColumns(columns) ? columns : std::string();
 }
 
 KittiSource KittiSourceOf(const fs::path& source) {

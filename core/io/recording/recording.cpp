@@ -13,6 +13,7 @@
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
 #include "core/base/unread_formats.h"
+#include "core/io/cloud/text_cloud.h"
 #include "core/io/recording/recording_extras.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/run/dataset_files.h"
@@ -46,12 +47,19 @@ void CheckIsOfOneSensor(const std::filesystem::path& directory) {
                    (merged ? all + ShownPath(merged->folder) : all.substr(0, all.size() - 2)));
 }
 
+/// The extensions of clouds that are read, but not written.
+std::vector<std::string> ReadOnlyExtensions(bool with_tables) {
+  std::vector<std::string> extensions = TextCloudEndings(with_tables);
+  extensions.insert(extensions.begin(), ".las");
+  return extensions;
+}
+
 /// Throws an error about the first file of a directory that is of a known format which is not read.
 void RefuseUnread(const std::filesystem::path& directory) {
   std::set<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(directory)) files.insert(entry);
   for (const std::filesystem::path& file : files) {
-    const std::string advice = AdviceOnFile(file);
+    const std::string advice = AdviceOnFile(file, false);
     if (!advice.empty()) throw InputError(ShownPath(file) + ": " + advice);
   }
 }
@@ -122,7 +130,7 @@ std::unique_ptr<Recording> OpenDirectory(const std::filesystem::path& directory)
   RefuseUnread(directory);
   const FolderKind* const kind = FindFolderKind(directory);
   throw InputError(ShownPath(directory) + ": must be a sequence or hold " +
-                   ReadableExtensions(true, {".las"}) + " files (got " +
+                   ReadableExtensions(true, ReadOnlyExtensions(false)) + " files (got " +
                    std::string(kind == nullptr ? "neither" : kind->what) + ")");
 }
 
@@ -156,12 +164,15 @@ class RemarkingRecording : public Recording {
   std::unique_ptr<Recording> recording_;
 };
 
-/// Opens clouds of KITTI's layout with other numbers a point.
+/// Opens clouds of KITTI's layout with other numbers a point, or in text with named columns.
 std::unique_ptr<Recording> OpenColumns(const std::filesystem::path& source,
-                                       const std::filesystem::path& clouds) {
+                                       const std::filesystem::path& clouds,
+                                       const std::string& columns) {
   if (auto recording = OpenCloudsIn(source)) return recording;
   if (!is_directory(clouds)) return OpenClouds(source, "point cloud file", {clouds});
-  throw InputError(ShownPath(clouds) + ": must hold .bin files for their columns to be chosen");
+  throw InputError(ShownPath(clouds) + ": must hold " +
+                   (IsTextColumns(columns) ? "clouds in text" : ".bin files") +
+                   " for their columns to be chosen");
 }
 
 std::unique_ptr<Recording> OpenAny(const std::filesystem::path& source) {
@@ -170,7 +181,7 @@ std::unique_ptr<Recording> OpenAny(const std::filesystem::path& source) {
   const std::filesystem::file_status status = std::filesystem::status(source, error);
   if (!exists(status)) {
     const auto [clouds, columns] = KittiSourceOf(source);
-    if (!columns.empty()) return OpenColumns(source, clouds);
+    if (!columns.empty()) return OpenColumns(source, clouds, columns);
     if (auto series = OpenCloudsIn(source)) return series;
     if (auto found = OpenAsKind(&RecordingKind::open_part, source)) return found;
     CheckExtraIsThere(source);
@@ -184,7 +195,7 @@ std::unique_ptr<Recording> OpenAny(const std::filesystem::path& source) {
   if (IsCloudFile(source)) return OpenClouds(source, "point cloud file", {source});
   if (auto found = OpenAsKind(&RecordingKind::open, source)) return found;
   CheckExtraIsThere(source);
-  std::vector<std::string> extensions = {".las"};
+  std::vector<std::string> extensions = ReadOnlyExtensions(true);
   for (const RecordingKind& kind : RecordingExtras::Get().kinds) {
     extensions.insert(extensions.end(), kind.extensions.begin(), kind.extensions.end());
   }

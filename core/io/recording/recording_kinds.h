@@ -15,7 +15,8 @@ inline constexpr std::string_view kTopicMark = ":/";
 /// Stands between the name of a topic and the frame_id of one of its sensors.
 inline constexpr char kSeriesMark = '#';
 
-/// Whether a file's extension is that of a cloud: .pcd, .ply, .bin (KITTI's) or .las, in any case.
+/// Whether a file's extension is that of a cloud: .pcd, .ply, .bin (KITTI's), .las or those of
+/// IsTextCloud(), in any case.
 [[nodiscard]] bool IsCloudFile(const std::filesystem::path& file);
 
 /// Whether it is one of KITTI's layout.
@@ -40,8 +41,8 @@ struct CloudSeries {
 void SortNaturally(std::vector<std::filesystem::path>& paths);
 
 /// Returns the cloud files in a directory, but for those whose names begin with a point, as
-/// SeriesOfClouds() sorts them. A directory that does not exist, as "drive/front_#", may stand for
-/// a series of the one that it is in.
+/// SeriesOfClouds() sorts them, and but for IsTextTable(). A directory that does not exist, as
+/// "drive/front_#", may stand for a series of the one that it is in.
 [[nodiscard]] CloudSeries CloudFilesIn(const std::filesystem::path& directory);
 
 /// Returns the sequences in a directory of KITTI's layout, `sequences/00`, `01`, ..., that hold
@@ -59,13 +60,13 @@ void SortNaturally(std::vector<std::filesystem::path>& paths);
 [[nodiscard]] std::vector<std::int64_t> StampsOfNames(
     const std::vector<std::filesystem::path>& files);
 
-/// Clouds of KITTI's layout and the numbers of their points.
+/// Clouds of KITTI's layout and the numbers of their points, or clouds in text and their columns.
 struct KittiSource {
   std::filesystem::path clouds;  ///< A file or a directory.
-  std::string columns;           ///< As IsKittiColumns(); empty: those of KITTI.
+  std::string columns;  ///< As IsKittiColumns() or IsTextColumns(); empty: none are chosen.
 };
 
-/// Splits "drive:nuscenes"; other sources are as they are, and have no columns.
+/// Splits "drive:nuscenes" and "a.xyz:x,y,z"; other sources are as they are, and have no columns.
 [[nodiscard]] KittiSource KittiSourceOf(const std::filesystem::path& source);
 /// The columns that KittiSourceOf() would find if nothing had the whole name.
 [[nodiscard]] std::string ColumnsBehind(const std::filesystem::path& source);

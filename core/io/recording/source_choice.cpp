@@ -3,8 +3,10 @@
 #include <arpa/inet.h>
 
 #include "core/base/error.h"
+#include "core/base/join.h"
 #include "core/base/text.h"
 #include "core/io/cloud/cloud_file.h"
+#include "core/io/cloud/text_cloud.h"
 #include "core/io/recording/recording_extras.h"
 #include "core/io/recording/recording_kinds.h"
 #include "railcast/io/recording.h"
@@ -12,10 +14,26 @@
 namespace railcast {
 namespace {
 
-bool HoldsKittiClouds(const std::filesystem::path& source) {
-  if (is_regular_file(source)) return IsKittiFile(source);
+/// Whether a source is a cloud of a kind, or a directory of them.
+bool HoldsClouds(const std::filesystem::path& source,
+                 bool (*is_of_kind)(const std::filesystem::path& file)) {
+  if (is_regular_file(source)) return is_of_kind(source);
   const auto clouds = CloudsOfDirectory(source).files;
-  return !clouds.empty() && IsKittiFile(clouds.front());
+  return !clouds.empty() && is_of_kind(clouds.front());
+}
+
+/// Puts columns behind the sources of a kind of clouds.
+/// @return Whether there are any.
+bool PutColumns(const std::string& columns,
+                bool (*is_of_kind)(const std::filesystem::path& file),
+                std::vector<std::filesystem::path>& sources) {
+  bool has_any = false;
+  for (std::filesystem::path& source : sources) {
+    if (!HoldsClouds(source, is_of_kind)) continue;
+    source += ":" + columns;
+    has_any = true;
+  }
+  return has_any;
 }
 
 void UseTopic(const std::string& topic, std::vector<std::filesystem::path>& sources) {
@@ -57,19 +75,26 @@ void UseFrameId(const std::string& frame_id, std::vector<std::filesystem::path>&
       ShownPath(sources.front()) + ")");
 }
 
-void UseColumns(const std::string& columns, std::vector<std::filesystem::path>& sources) {
+void UseKittiColumns(const std::string& columns, std::vector<std::filesystem::path>& sources) {
   if (!IsKittiColumns(columns)) {
     throw InputError("--kitti-columns: must be 3 to 16, nuscenes, waymo or float64 (got " +
                      ShownText(columns) + ")");
   }
-  std::size_t num_sources = 0;
-  for (std::filesystem::path& source : sources) {
-    if (!HoldsKittiClouds(source)) continue;
-    source += ":" + columns;
-    ++num_sources;
-  }
-  if (num_sources > 0) return;
+  if (PutColumns(columns, IsKittiFile, sources)) return;
   throw InputError("--kitti-columns: must come with .bin files or a directory of them (got " +
+                   ShownPath(sources.front()) + ")");
+}
+
+void UseTextColumns(const std::string& columns, std::vector<std::filesystem::path>& sources) {
+  if (!IsTextColumns(columns)) {
+    throw InputError(
+        "--columns: must be the names of columns, x, y and z among them, each once, and _ for "
+        "those that are not used, as in x,y,z,_,intensity (got " +
+        ShownText(columns) + ")");
+  }
+  if (PutColumns(columns, IsTextCloud, sources)) return;
+  throw InputError("--columns: must come with clouds in text, " +
+                   JoinInProse(TextCloudEndings(true), " or ") + ", or a directory of them (got " +
                    ShownPath(sources.front()) + ")");
 }
 
@@ -96,7 +121,8 @@ std::vector<std::filesystem::path> WithChoice(std::vector<std::filesystem::path>
                                               const SourceChoice& choice) {
   if (!choice.topic.empty()) UseTopic(choice.topic, sources);
   if (!choice.frame_id.empty()) UseFrameId(choice.frame_id, sources);
-  if (!choice.kitti_columns.empty()) UseColumns(choice.kitti_columns, sources);
+  if (!choice.kitti_columns.empty()) UseKittiColumns(choice.kitti_columns, sources);
+  if (!choice.columns.empty()) UseTextColumns(choice.columns, sources);
   if (!choice.sensor.empty()) UseSensor(choice.sensor, sources);
   return sources;
 }

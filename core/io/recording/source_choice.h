@@ -15,6 +15,7 @@ struct SourceChoice {
   std::string topic{};          ///< For bags.
   std::string frame_id{};       ///< For a topic of bags.
   std::string kitti_columns{};  ///< For .bin files, as IsKittiColumns().
+  std::string columns{};        ///< For clouds in text, as IsTextColumns().
   std::string sensor{};         ///< For captures, as ParseSender().
 };
 

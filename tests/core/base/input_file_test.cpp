@@ -128,6 +128,8 @@ TEST_F(UnreadFormats, AreKnownByTheirFirstBytes) {
   EXPECT_TRUE(AdviceOn("drive", "#ROSBAG V2.0\n").starts_with("is a bag of ROS 1"));
   EXPECT_TRUE(AdviceOn("site", "ASTM-E57").starts_with("is a survey in E57"));
   EXPECT_TRUE(AdviceOn("points", "\x93NUMPY").starts_with("is an array of NumPy"));
+  EXPECT_TRUE(AdviceOn("dem.asc", "ncols 4\n").starts_with("is a grid of heights"));
+  EXPECT_TRUE(AdviceOn("log.txt", "$GPGGA,1,2\n").starts_with("is a log of a GPS receiver"));
   EXPECT_EQ(AdviceOn("drive.pcap", "version https://git-lfs.github.com/spec/v1\n"),
             "is a pointer of Git LFS to the file, which is not read: git lfs pull fetches it");
 }
@@ -150,12 +152,11 @@ TEST(UnreadTypes, AreKnownByTheirNamesAndEncodings) {
 TEST_F(UnreadFormats, TellTextOfPosesFromTextOfPoints) {
   const std::string poses =
       " numbers a line, which is not read: if these are poses, name the clouds, and them with "
-      "--poses";
+      "--poses; if it is a cloud, name its columns with --columns";
   EXPECT_EQ(AdviceOn("tum.txt", "# time x y z qx qy qz qw\n1.5 0 0 0 0 0 0 1\n"),
             "is text with 8" + poses);
   EXPECT_EQ(AdviceOn("kitti.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n"), "is text with 12" + poses);
-  EXPECT_TRUE(AdviceOn("cloud.csv", "x,y,z\n1,2,3\n")
-                  .starts_with("is text with 3 numbers a line, which is not read: "));
+  EXPECT_EQ(AdviceOn("cloud.csv", "x,y,z\n1,2,3\n"), "");
   EXPECT_EQ(AdviceOn("notes.txt", "Dear reader,\n"), "");
 }
 

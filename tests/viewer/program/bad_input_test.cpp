@@ -48,10 +48,11 @@ TEST_F(BadInput, SourcesThatAreMissingAreNamed) {
     ExpectFault(PathOf(name), PathOf(name) + ": no such file or directory");
   }
   std::filesystem::create_directories(PathOf("empty"));
-  ExpectFault(PathOf("empty"),
-              PathOf("empty") +
-                  ": must be a sequence or hold .pcd, .ply, .bin or .las files (got "
-                  "neither)");
+  ExpectFault(
+      PathOf("empty"),
+      PathOf("empty") +
+          ": must be a sequence or hold .pcd, .ply, .bin, .las, .xyz, .pts, .asc or .pc files (got "
+          "neither)");
   ExpectFault(run_ + " --compare " + PathOf("gone"),
               PathOf("gone") + ": no such file or directory");
 }
@@ -78,12 +79,12 @@ TEST_F(BadInput, GarbageIsNamed) {
   ExpectFaultOf("garbage.bin", garbage,
                 "must have 16 bytes for each point (got " + std::to_string(garbage.size()) + ")");
   ExpectFaultOf("garbage.pcap", garbage, "unknown file format");
-  ExpectFaultOf(
-      "notes.txt", garbage,
-      "must be a directory or a .pcd, .ply, .bin, .las, .pcap, .pcapng, .mcap or .db3 file");
-  ExpectFaultOf(
-      "cloud.xyzzy", garbage,
-      "must be a directory or a .pcd, .ply, .bin, .las, .pcap, .pcapng, .mcap or .db3 file");
+  ExpectFaultOf("notes.txt", garbage,
+                "line 1: must be numbers, or names of columns with x, y and z once each; --columns "
+                "x,y,z,... names them (got \\x8f\\u0003 this is \\xff\\u0001 nothing)");
+  ExpectFaultOf("cloud.xyzzy", garbage,
+                "must be a directory or a .pcd, .ply, .bin, .las, .xyz, .pts, .asc, .pc, .txt, "
+                ".csv, .pcap, .pcapng, .mcap or .db3 file");
 }
 
 TEST_F(BadInput, TruncatedFilesAreNamed) {

@@ -8,6 +8,7 @@
 #include "core/base/text.h"
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/cloud/las_reader.h"
+#include "core/io/cloud/text_cloud.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/run/sensors_record.h"
@@ -26,9 +27,10 @@ std::string NameIn(const fs::path& directory, const fs::path& file) {
 /// Adds a frame's cloud and its labels.
 /// @throws InputError if it is of a format that is read, but not written.
 void AddSourceFrame(const fs::path& cloud, SourceFiles& source) {
-  if (IsLasFile(cloud)) {
+  if (IsLasFile(cloud) || IsTextCloud(cloud)) {
     throw InputError(ShownPath(cloud) + ": must be a " + ReadableExtensions(true) +
-                     " file to be inserted into (got .las, which is read, but not written)");
+                     " file to be inserted into (got " + ShownPath(cloud.extension()) +
+                     ", which is read, but not written)");
   }
   std::vector<std::string> names = {NameIn(source.directory, cloud)};
   if (const auto labels = SecondFileOf(cloud)) names.push_back(NameIn(source.directory, *labels));

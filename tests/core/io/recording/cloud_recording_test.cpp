@@ -416,15 +416,18 @@ TEST(CloudRecording, NamesWhatIsWrongWithAFile) {
             "ring, column: must make no more than 1048577 slots (got 1000 x 100000000 x 1)");
   EXPECT_EQ(MessageOfText("a.bin", std::string(17, 'a')),
             "must have 16 bytes for each point (got 17)");
-  EXPECT_EQ(MessageOfText("a.txt", ""),
-            "must be a directory or a .pcd, .ply, .bin, .las, .pcap, .pcapng, .mcap or .db3 file");
+  EXPECT_EQ(MessageOfText("a.txt", ""), "must have lines of numbers");
+  EXPECT_EQ(MessageOfText("a.dat", ""),
+            "must be a directory or a .pcd, .ply, .bin, .las, .xyz, .pts, .asc, .pc, .txt, .csv, "
+            ".pcap, .pcapng, .mcap or .db3 file");
 }
 
 TEST(OpenRecording, NamesADirectoryOrFileThatIsNoRecording) {
   const TemporaryDirectory directory;
   EXPECT_EQ(MessageOf([&] { (void)OpenRecording(directory.path()); }),
             directory.path().string() +
-                ": must be a sequence or hold .pcd, .ply, .bin or .las files (got neither)");
+                ": must be a sequence or hold .pcd, .ply, .bin, .las, .xyz, .pts, .asc or .pc "
+                "files (got neither)");
   const auto missing = directory.path() / "missing";
   EXPECT_EQ(MessageOf([&] { (void)OpenRecording(missing); }),
             missing.string() + ": no such file or directory");

@@ -52,10 +52,11 @@ TEST(OpenRecording, NamesNoExtraForWhatNoneReads) {
   const TemporaryDirectory folder;
   const auto missing = folder.path() / "a.pcap";
   EXPECT_EQ(MessageWithoutExtras(missing), missing.string() + ": no such file or directory");
-  const auto file = folder.path() / "a.txt";
+  const auto file = folder.path() / "a.dat";
   WriteFileWhole(file, "content");
-  EXPECT_EQ(MessageWithoutExtras(file),
-            file.string() + ": must be a directory or a .pcd, .ply, .bin or .las file");
+  EXPECT_EQ(MessageWithoutExtras(file), file.string() +
+                                            ": must be a directory or a .pcd, .ply, .bin, .las, "
+                                            ".xyz, .pts, .asc, .pc, .txt or .csv file");
 }
 
 }  // namespace

@@ -83,6 +83,26 @@ TEST(WithChoice, NamesTheColumnsOfKittisFilesAndFolders) {
             "--kitti-columns: must come with .bin files or a directory of them (got a.pcd)");
 }
 
+TEST(WithChoice, NamesTheColumnsOfCloudsInText) {
+  const TemporaryDirectory folder;
+  const std::filesystem::path drive = folder.path() / "drive";
+  std::filesystem::create_directory(drive);
+  WriteFileWhole(drive / "0.xyz", "0.5 1 2 3\n");
+  for (const std::filesystem::path& source : {drive, drive / "0.xyz"}) {
+    const auto chosen = WithChoice({source}, {.columns = "intensity,x,y,z"});
+    EXPECT_EQ(chosen.front(), source.string() + ":intensity,x,y,z");
+    const auto frames = ReadAll(chosen.front());
+    ASSERT_EQ(frames.size(), 1U);
+    EXPECT_EQ(frames[0].frame.intensity[0], 0.5F);
+  }
+  EXPECT_EQ(MessageOf([&] { (void)WithChoice({drive}, {.columns = "x,y"}); }),
+            "--columns: must be the names of columns, x, y and z among them, each once, and _ for "
+            "those that are not used, as in x,y,z,_,intensity (got x,y)");
+  EXPECT_EQ(MessageOf([&] { (void)WithChoice({"a.pcd"}, {.columns = "x,y,z"}); }),
+            "--columns: must come with clouds in text, .xyz, .pts, .asc, .pc, .txt or .csv, or a "
+            "directory of them (got a.pcd)");
+}
+
 TEST(RecordingExtras, SayWhatThisBuildLacks) {
   EXPECT_EQ(MessageOf([] { (void)NeedExtra(RecordingExtras().verify_trace, "a.osi", "osi"); }),
             "a.osi: needs the extra osi, which is not installed (Debian package railcast-osi; to "

@@ -188,13 +188,15 @@ TEST(EditedKitti, KeepsPointsAndLabelsTogether) {
   EXPECT_EQ(label, (9U << 16U) + 4U);
 }
 
-TEST(SourceFiles, AreNoneOfLas) {
+TEST(SourceFiles, AreNoneOfLasOrText) {
   const TemporaryDirectory folder;
-  WriteFileWhole(folder.path() / "site.las", "");
-  EXPECT_EQ(MessageOf([&] { (void)FindSourceFiles(folder.path() / "site.las"); }),
-            (folder.path() / "site.las").string() +
-                ": must be a .pcd, .ply or .bin file to be inserted into (got .las, which is read, "
-                "but not written)");
+  for (const std::string ending : {".las", ".xyz", ".csv"}) {
+    const std::filesystem::path file = folder.path() / ("site" + ending);
+    WriteFileWhole(file, "");
+    EXPECT_EQ(MessageOf([&] { (void)FindSourceFiles(file); }),
+              file.string() + ": must be a .pcd, .ply or .bin file to be inserted into (got " +
+                  ending + ", which is read, but not written)");
+  }
 }
 
 TEST(EditedClouds, StayAsTheyAreWithoutEdits) {
