@@ -10,7 +10,7 @@
 namespace railcast {
 namespace {
 
-HeldThreads Hold(std::size_t num_threads) {
+HeldThreads HoldThreads(std::size_t num_threads) {
   return std::make_shared<const tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                      num_threads);
 }
@@ -18,12 +18,13 @@ HeldThreads Hold(std::size_t num_threads) {
 }  // namespace
 
 HeldThreads AllowThreads(int num_threads) {
-  return Hold(static_cast<std::size_t>(std::max(num_threads, tbb::info::default_concurrency())));
+  return HoldThreads(
+      static_cast<std::size_t>(std::max(num_threads, tbb::info::default_concurrency())));
 }
 
 HeldThreads LimitThreads(int num_threads) {
-  return Hold(num_threads > 0 ? static_cast<std::size_t>(num_threads)
-                              : std::size_t{std::thread::hardware_concurrency()});
+  return HoldThreads(num_threads > 0 ? static_cast<std::size_t>(num_threads)
+                                     : std::size_t{std::thread::hardware_concurrency()});
 }
 
 }  // namespace railcast

@@ -215,7 +215,7 @@ void TakeOutSteps(const RecordedTrials& trials,
 
 NoiseFrom TakeLeastNoise(RecordedTrials& trials) {
   constexpr std::size_t kLeast = 500;
-  // Of two measures that agree, taking whichever chance made smaller would understate the noise.
+  // Taking whichever of two like measures chance made smaller would understate the noise.
   constexpr double kMuchLess = 0.8;
   const auto take = [&](float NoiseTrial::*sample_m, NoiseFrom from, const auto& is_less) {
     std::vector<double> samples_m, residuals_m;

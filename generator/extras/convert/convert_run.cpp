@@ -117,9 +117,9 @@ class RecordingConversion {
       output_->Write(slots[i].frame);
       folder_.Write(slots[i].frame.files, slots[i].frame.lines, slots[i].frame.record);
     };
-    MakeMissing({survey_.range, folder_.num_done(), choices_.num_threads, hooks_},
-                [&](std::size_t num_slots) { slots.resize(num_slots); }, take, {{false, encode}},
-                write);
+    MakeMissing(
+        {survey_.range, folder_.num_done(), choices_.num_threads, hooks_},
+        [&](std::size_t num_slots) { slots.resize(num_slots); }, take, {{false, encode}}, write);
   }
 
   /// What no format has a place for.
