@@ -109,10 +109,10 @@ std::vector<std::string> BackgroundNames() {
 
 void AddSourceOptions(ProgramOptions& app, ViewOptions& options, RawOptions& raw) {
   app.AddOption("source", options.source,
-                "What to show: a sequence directory, a .pcd, .ply or .bin file, a directory of "
-                "such files, a .pcap or .pcapng capture, a bag of ROS 2, a live stream, "
-                "udp://HOST:PORT, or "
-                "a scenario, SCENARIO.json, whose plan --screenshot draws")
+                "What to show: a sequence directory, a cloud in .pcd, .ply, .bin, .las or text, a "
+                "directory of such files, a .pcap or .pcapng capture, a bag of ROS 2, a live "
+                "stream, udp://HOST:PORT, or a scenario, SCENARIO.json, whose plan --screenshot "
+                "draws")
       .Required()
       .Check(NonEmpty());
   AddSourceChoice(app, options.choice);
