@@ -11,6 +11,7 @@
 #include "core/base/median.h"
 #include "core/base/units.h"
 #include "core/io/recording/range_step.h"
+#include "core/io/recording/scan_table.h"
 #include "core/points/point_alignment.h"
 
 namespace railcast {
@@ -45,8 +46,8 @@ void AddPoint(const RecordedFrame& recorded,
   InspectedRing& of = rings[ring];
   ++of.num_points;
   if (range_m < kFewest_m) return;
-  of.elevation_deg.Add(
-      DegFromRad(std::atan2(static_cast<double>(frame.z[slot]), std::hypot(x_m, y_m))));
+  const Vector3 spin_m = SpinPoint_m(frame, slot);
+  of.elevation_deg.Add(DegFromRad(std::atan2(spin_m.z(), std::hypot(spin_m.x(), spin_m.y()))));
 }
 
 std::vector<Eigen::Vector3f> PointsToLay(const Frame& frame) {

@@ -70,13 +70,16 @@ AngleSpan SpanOf(std::span<const double> values, double step) {
 struct FieldOfView {
   AngleSpan elevation_rad, azimuth_rad;
   bool is_full_turn;
+  std::optional<Eigen::Matrix3d> sensor_from_spin;
 
   explicit FieldOfView(const ScanTable& scan)
       : elevation_rad(SpanOf(scan.elevation_rad, scan.row_step_rad)),
         azimuth_rad(SpanOf(scan.column_azimuth_rad, scan.column_step_rad)),
-        is_full_turn(scan.is_full_turn) {}
+        is_full_turn(scan.is_full_turn),
+        sensor_from_spin(scan.sensor_from_spin) {}
 
-  [[nodiscard]] bool Has(const Vector3& place_m) const {
+  [[nodiscard]] bool Has(Vector3 place_m) const {
+    if (sensor_from_spin) place_m = sensor_from_spin->transpose() * place_m;
     const double elevation = std::atan2(place_m.z(), std::hypot(place_m.x(), place_m.y()));
     if (!elevation_rad.Has(elevation)) return false;
     // Columns are unwrapped: the direction is within half a turn of their middle.

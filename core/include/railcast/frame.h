@@ -112,6 +112,9 @@ struct Frame {
   std::uint32_t rows{};         ///< Channels.
   std::uint32_t columns{};      ///< Azimuth steps.
   std::uint32_t returns{1};     ///< Slots per firing.
+  /// The rotation into the axes of x, y and z from those about whose z the sensor spins; absent if
+  /// it spins about their z, as all that is simulated does. Recorded clouds may be in other axes.
+  std::optional<Eigen::Matrix3d> sensor_from_spin{};
   /// Whether the sensor measures velocities (VelocitySpec). If not, the two fields of velocity are
   /// empty, and ForEachField() leaves them out.
   bool has_velocity = false;

@@ -336,6 +336,7 @@ void FillFrame(const Cloud& cloud, const SlotPlan& plan, RecordedFrame& recorded
   frame.has_velocity = FindFieldOf(cloud, "radial_velocity_mps") != nullptr ||
                        FindFieldOf(cloud, "true_radial_velocity_mps") != nullptr;
   frame.Resize(plan.rows, plan.columns, plan.returns);
+  frame.sensor_from_spin = plan.sensor_from_spin;
   recorded.is_grid = plan.is_grid;
   recorded.why_no_grid = plan.why_no_grid;
   recorded.slot_of_entry = plan.slots;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@ struct SlotPlan {
   /// For each point its slot; if empty, each point's own index.
   std::vector<std::uint32_t> slots;
   bool is_grid{};
-  std::string why_no_grid{};  ///< As in RecordedFrame.
+  std::string why_no_grid{};                          ///< As in RecordedFrame.
+  std::optional<Eigen::Matrix3d> sensor_from_spin{};  ///< As in Frame.
 };
 
 /// Gives the frame the plan's shape and fills all the fields that the file has, under our names or

@@ -49,9 +49,8 @@ std::array<double, 2> OriginOf(const Frame& frame, const std::vector<CellPoint>&
   std::vector<LevelPoint> level;
   std::vector<std::uint32_t> rings;
   for (const CellPoint& point : points) {
-    const auto x = static_cast<double>(frame.x[point.slot]);
-    const auto y = static_cast<double>(frame.y[point.slot]);
-    level.push_back({std::hypot(x, y), static_cast<double>(frame.z[point.slot])});
+    const Vector3 point_m = SpinPoint_m(frame, point.slot);
+    level.push_back({std::hypot(point_m.x(), point_m.y()), point_m.z()});
     rings.push_back(point.row);
   }
   return OriginOfRings(level, rings);
@@ -97,13 +96,12 @@ std::vector<double> AsideOfRows(const Frame& frame,
   };
   std::vector<Line> lines(table.rows);
   for (const CellPoint& point : points) {
-    const double azimuth_rad = std::atan2(static_cast<double>(frame.y[point.slot]),
-                                          static_cast<double>(frame.x[point.slot]));
+    const Vector3 point_m = SpinPoint_m(frame, point.slot);
+    const double azimuth_rad = std::atan2(point_m.y(), point_m.x());
     const double y =
         WrappedAngle_rad(azimuth_rad - even_rad(table.column_azimuth_rad[point.column]) -
                          table.row_azimuth_rad[point.row]);
-    const double x = 1.0 / std::hypot(static_cast<double>(frame.x[point.slot]),
-                                      static_cast<double>(frame.y[point.slot]));
+    const double x = 1.0 / std::hypot(point_m.x(), point_m.y());
     Line& line = lines[point.row];
     line.num += 1.0;
     line.x += x;
@@ -279,6 +277,14 @@ std::string FoundSensor::Text() const {
                            : ", order of firing and rate not known");
 }
 
+std::string FoundSensor::AxisText() const {
+  if (!sensor_from_spin) return "";
+  const auto decimal = [&](int i) {
+    return NumberText(std::round(1e3 * (*sensor_from_spin)(i, 2)) / 1e3 + 0.0);
+  };
+  return "[" + decimal(0) + ", " + decimal(1) + ", " + decimal(2) + "]";
+}
+
 std::string FoundSensor::FileText() const {
   LidarSpec lidar;
   lidar.name = "found";
@@ -306,6 +312,7 @@ FoundSensor FindSensor(const RecordedFrame& recorded) {
   const std::vector<CellPoint> points = PointsOfGrid(frame);
   if (points.empty()) throw InputError("it has no points");
   FoundSensor found;
+  found.sensor_from_spin = frame.sensor_from_spin;
   const std::array<double, 2> origin_m = NearOriginOf(frame, points);
   if (origin_m != std::array{0.0, 0.0}) found.pattern.beam_origin_m = origin_m;
   auto table = MakeScanTable(frame, origin_m);

@@ -25,12 +25,15 @@ struct FoundSensor {
   double azimuth_error_deg{};     ///< Error of the points from their column and channel.
   double share_without_return{};  ///< Share of the firings of these channels.
   ScanTable beams;                ///< Beams of the turn, from where they leave.
+  std::optional<Eigen::Matrix3d> sensor_from_spin;  ///< As in Frame; Rz(yaw) Ry(pitch).
   std::size_t num_points{};
   std::size_t num_lost{};  ///< Points that share the firing of another one without its direction.
 
   /// "64 rings, step 0.172 deg, ...": one line with all figures.
   [[nodiscard]] std::string Text() const;
-  /// The sensor as a file that scenarios and plans take as `lidar`.
+  /// "[0.966, 0, 0.259]": the axis of rotation in the recording's axes; empty if it is their z.
+  [[nodiscard]] std::string AxisText() const;
+  /// The sensor as a file that scenarios and plans take as `lidar`, as if it spun about z.
   /// @throws InputError as BuildScanPattern() does.
   [[nodiscard]] std::string FileText() const;
 };

@@ -16,6 +16,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/io/recording/cloud_fields.h"
+#include "core/io/recording/scan_table.h"
 #include "core/io/sensor_tables.h"
 
 namespace railcast {
@@ -180,9 +181,10 @@ std::vector<double> ElevationsOfRows_deg(const Frame& frame) {
     double sum_rad = 0.0;
     std::size_t num = 0;
     for (std::size_t i = row * num_slots; i < (row + 1) * num_slots; ++i) {
-      const double level_m = std::hypot(double{frame.x[i]}, double{frame.y[i]});
+      const Vector3 point_m = SpinPoint_m(frame, i);
+      const double level_m = std::hypot(point_m.x(), point_m.y());
       if (!(level_m > kNear_m)) continue;
-      sum_rad += std::atan2(double{frame.z[i]}, level_m);
+      sum_rad += std::atan2(point_m.z(), level_m);
       ++num;
     }
     if (num > 0) rows_deg.push_back(DegFromRad(sum_rad / static_cast<double>(num)));

@@ -186,16 +186,10 @@ std::vector<std::uint32_t> RowsOf(const RingCloud& cloud) {
   return rows;
 }
 
-}  // namespace
-
-bool PointPositions::IsPoint(std::size_t i) const {
-  const float squared = x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
-  return std::isfinite(squared) && squared > 0.0F;
-}
-
-std::optional<SlotPlan> MakeRingTable(const PointPositions& positions,
-                                      std::span<const std::uint32_t> rings,
-                                      std::string* why_not) {
+/// MakeRingTable() of a sensor that spins about z.
+std::optional<SlotPlan> TableAboutZ(const PointPositions& positions,
+                                    std::span<const std::uint32_t> rings,
+                                    std::string* why_not) {
   const auto refuse = [&](const std::string& why) -> std::optional<SlotPlan> {
     if (why_not != nullptr) *why_not = why;
     return std::nullopt;
@@ -255,6 +249,36 @@ std::optional<SlotPlan> MakeRingTable(const PointPositions& positions,
                   " points of a ring have one azimuth, more than " + NumberText(kMaxRingReturns));
   }
   return PlanOf(points, num_rows, num_columns, positions.size());
+}
+
+}  // namespace
+
+bool PointPositions::IsPoint(std::size_t i) const {
+  const float squared = x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
+  return std::isfinite(squared) && squared > 0.0F;
+}
+
+PointPositions InSpinAxes(PointPositions positions, const Eigen::Matrix3d& sensor_from_spin) {
+  const Eigen::Matrix3d spin_from_sensor = sensor_from_spin.transpose();
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Eigen::Vector3f turned_m =
+        (spin_from_sensor * Vector3(positions.x[i], positions.y[i], positions.z[i])).cast<float>();
+    positions.x[i] = turned_m.x();
+    positions.y[i] = turned_m.y();
+    positions.z[i] = turned_m.z();
+  }
+  return positions;
+}
+
+std::optional<SlotPlan> MakeRingTable(const PointPositions& positions,
+                                      std::span<const std::uint32_t> rings,
+                                      std::string* why_not) {
+  if (auto plan = TableAboutZ(positions, rings, why_not)) return plan;
+  const auto sensor_from_spin = FindSpinAxis(positions);
+  if (!sensor_from_spin) return std::nullopt;
+  auto plan = TableAboutZ(InSpinAxes(positions, *sensor_from_spin), rings, nullptr);
+  if (plan) plan->sensor_from_spin = sensor_from_spin;
+  return plan;
 }
 
 }  // namespace railcast

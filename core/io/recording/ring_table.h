@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -86,9 +87,22 @@ struct PointPositions {
   [[nodiscard]] bool IsPoint(std::size_t i) const;
 };
 
+/// Finds the axis about which the sensor of a turn spins, wherever it points: seen from where the
+/// beams leave, which may be some centimetres beside the origin, all points of a ring lie on one
+/// cone about it. Of an axis, that end is taken which points up or, of one within 30 deg of level,
+/// about which the sensor turns clockwise in the order of the points.
+/// @returns Frame::sensor_from_spin; nothing if no axis is likely. Whether there are rings about it
+///   is left to see.
+[[nodiscard]] std::optional<Eigen::Matrix3d> FindSpinAxis(const PointPositions& positions);
+
+/// The positions in axes about whose z the sensor spins.
+[[nodiscard]] PointPositions InSpinAxes(PointPositions positions,
+                                        const Eigen::Matrix3d& sensor_from_spin);
+
 /// Puts the points of a spinning sensor into a ring/azimuth table where no file states their
 /// firings.
 ///
+/// Elevations and azimuths are those about z or, where that gives no table, about FindSpinAxis().
 /// Rows are the rings by rising median elevation, each with a step of its own (AzimuthStepsOf()). A
 /// ring that fires several times within a column makes as many rows, of one elevation and a part of
 /// a column apart. A point's column is azimuth / step, rounded so that no two firings of a ring

@@ -196,29 +196,37 @@ std::optional<ScanTable> TableOf(const DirectionGrid& grid, int num_settling = 0
 std::array<double, 3> ScanTable::Direction(std::size_t row, std::size_t column) const {
   const double azimuth_rad = column_azimuth_rad[column] + row_azimuth_rad[row];
   const double level = std::cos(elevation_rad[row]);
-  return {level * std::cos(azimuth_rad), level * std::sin(azimuth_rad),
-          std::sin(elevation_rad[row])};
+  const Vector3 direction(level * std::cos(azimuth_rad), level * std::sin(azimuth_rad),
+                          std::sin(elevation_rad[row]));
+  if (!sensor_from_spin) return {direction.x(), direction.y(), direction.z()};
+  const Vector3 turned = *sensor_from_spin * direction;
+  return {turned.x(), turned.y(), turned.z()};
 }
 
 double ScanTable::SolidAngle_sr(std::size_t row) const {
   return std::cos(elevation_rad[row]) * row_height_rad[row] * column_step_rad;
 }
 
+Vector3 SpinPoint_m(const Frame& frame, std::size_t slot) {
+  const Vector3 point_m(static_cast<double>(frame.x[slot]), static_cast<double>(frame.y[slot]),
+                        static_cast<double>(frame.z[slot]));
+  return frame.sensor_from_spin ? Vector3(frame.sensor_from_spin->transpose() * point_m) : point_m;
+}
+
 AimedPoint SeenFromBeam(const std::array<double, 2>& origin_m,
                         double channel_azimuth_rad,
                         const Frame& frame,
                         std::size_t slot) {
-  const auto x = static_cast<double>(frame.x[slot]);
-  const auto y = static_cast<double>(frame.y[slot]);
-  const double up_m = static_cast<double>(frame.z[slot]) - origin_m[1];
-  const double from_axis_m = std::hypot(x, y);
+  const Vector3 point_m = SpinPoint_m(frame, slot);
+  const double up_m = point_m.z() - origin_m[1];
+  const double from_axis_m = std::hypot(point_m.x(), point_m.y());
   const double along_m = origin_m[0] * std::cos(channel_azimuth_rad);
   const double aside_m = origin_m[0] * std::sin(channel_azimuth_rad);
   const double level_m =
       std::sqrt(std::max(0.0, from_axis_m * from_axis_m - aside_m * aside_m)) - along_m;
-  const double rotor_rad =
-      std::atan2(y, x) - std::atan2(level_m * std::sin(channel_azimuth_rad),
-                                    origin_m[0] + level_m * std::cos(channel_azimuth_rad));
+  const double rotor_rad = std::atan2(point_m.y(), point_m.x()) -
+                           std::atan2(level_m * std::sin(channel_azimuth_rad),
+                                      origin_m[0] + level_m * std::cos(channel_azimuth_rad));
   return {.azimuth_rad = rotor_rad + channel_azimuth_rad,
           .elevation_rad = std::atan2(up_m, level_m)};
 }
@@ -239,7 +247,9 @@ std::optional<ScanTable> MakeScanTable(const Frame& frame,
     grid.elevation_rad[place] = seen.elevation_rad;
   }
   constexpr int kUntilSettled = 30;
-  return TableOf(grid, aside_rad.empty() ? 0 : kUntilSettled);
+  auto table = TableOf(grid, aside_rad.empty() ? 0 : kUntilSettled);
+  if (table) table->sensor_from_spin = frame.sensor_from_spin;
+  return table;
 }
 
 std::optional<ScanTable> MakeScanTable(const ScanPattern& pattern) {

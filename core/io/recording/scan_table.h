@@ -11,6 +11,7 @@
 
 #include "railcast/frame.h"
 #include "railcast/lidar.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 
@@ -34,6 +35,8 @@ struct ScanTable {
   std::vector<std::int64_t> row_shift;     ///< Offset of each row in columns; see ColumnBeside().
   std::vector<double> row_height_rad;      ///< Elevation range that each row covers; NaN = unknown.
   double row_step_rad{};                   ///< Median of row_height_rad, > 0.
+  /// As in Frame: elevations and azimuths are those in the axes about whose z the sensor spins.
+  std::optional<Eigen::Matrix3d> sensor_from_spin;
 
   /// Returns the column in which `other_row` has the azimuth of (row, column), to half a column:
   /// the rows of spinning sensors differ by degrees in azimuth. Returns nothing beyond the ends of
@@ -52,6 +55,9 @@ struct ScanTable {
   /// Returns the solid angle that one firing of this row covers.
   [[nodiscard]] double SolidAngle_sr(std::size_t row) const;
 };
+
+/// The point of a slot in the axes about whose z the sensor spins (Frame::sensor_from_spin).
+[[nodiscard]] Vector3 SpinPoint_m(const Frame& frame, std::size_t slot);
 
 /// A point as its beam sees it, from where it leaves.
 struct AimedPoint {

@@ -66,4 +66,19 @@ void UndoOutputAxes(const OutputSpec& output,
   });
 }
 
+void TurnToSpinAxes(Frame& frame) {
+  if (!frame.sensor_from_spin) return;
+  const Transform sensor_from_spin = MakeTransform(*frame.sensor_from_spin, Vector3::Zero());
+  const Transform spin_from_sensor = sensor_from_spin.inverse();
+  MovePoints(frame, [&](const Vector3& point_m, std::size_t) -> Vector3 {
+    return spin_from_sensor * point_m;
+  });
+  frame.world_from_sensor = frame.world_from_sensor * sensor_from_spin;
+  frame.world_from_sensor_end = frame.world_from_sensor_end * sensor_from_spin;
+  for (ScanPose& pose : frame.poses_between) {
+    pose.world_from_sensor = pose.world_from_sensor * sensor_from_spin;
+  }
+  frame.sensor_from_spin.reset();
+}
+
 }  // namespace railcast

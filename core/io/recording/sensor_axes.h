@@ -18,4 +18,8 @@ void UndoOutputAxes(const OutputSpec& output,
                     const ScanPattern& pattern,
                     RecordedFrame& recorded);
 
+/// Turns the points and poses of a frame into the axes about whose z its sensor spins, for what
+/// only sensors that stand are made for; nothing remains of Frame::sensor_from_spin.
+void TurnToSpinAxes(Frame& frame);
+
 }  // namespace railcast

@@ -13,6 +13,7 @@
 #include "core/io/recording/column_finder.h"
 #include "core/io/recording/plausibility.h"
 #include "core/io/recording/range_step.h"
+#include "core/io/recording/sensor_axes.h"
 #include "core/io/recording/surface_point.h"
 
 namespace railcast {
@@ -269,6 +270,7 @@ std::vector<RecordedFrame> WholeTurns(Recording& recording, std::size_t most_fra
     if (!read) break;
     turns.push_back((*read)());
     NeedRanges(turns.back());
+    TurnToSpinAxes(turns.back().frame);
     most = std::max(most, turns.back().frame.columns);
   }
   std::erase_if(turns, [&](const RecordedFrame& turn) {

@@ -20,7 +20,8 @@ namespace railcast {
 // with the four on either side in their ring on a line over their columns (standard deviation of
 // the ranges up to 3 cm).
 
-/// The turns of a recording that are whole: those of at least 0.9 of the most columns.
+/// The turns of a recording that are whole: those of at least 0.9 of the most columns. Their axes
+/// are those about whose z the sensor spins.
 /// @param most_frames Frames that are read at most.
 /// @throws InputError as NeedRanges().
 [[nodiscard]] std::vector<RecordedFrame> WholeTurns(

@@ -261,8 +261,11 @@ class TurnFirings {
     const std::size_t column = cell % recorded_.frame.columns;
     const double level = std::cos(aim.elevation_rad);
     const double rotor_rad = aim.azimuth_rad - channels_.azimuth_rad[row];
-    const auto to_float = [](double x, double y, double z) {
-      return std::array{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+    const auto to_float = [&](double x, double y, double z) {
+      Vector3 turned(x, y, z);
+      if (recorded_.frame.sensor_from_spin) turned = *recorded_.frame.sensor_from_spin * turned;
+      return std::array{static_cast<float>(turned.x()), static_cast<float>(turned.y()),
+                        static_cast<float>(turned.z())};
     };
     return {
         .direction = to_float(level * std::cos(aim.azimuth_rad), level * std::sin(aim.azimuth_rad),

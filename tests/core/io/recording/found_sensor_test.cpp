@@ -322,6 +322,124 @@ TEST(FoundSensor, IsWrittenAsAFileThatScenariosTake) {
   EXPECT_NO_THROW((void)BuildScanPattern(scenario.lidar.scan));
 }
 
+/// The same firings of a sensor that is turned, with ranges that are read in millimetres.
+std::vector<KnownFiring> Turned(std::vector<KnownFiring> firings, const Eigen::Matrix3d& rotation) {
+  for (KnownFiring& firing : firings) {
+    if (!firing.point_m.isZero()) {
+      const double range_m = firing.point_m.norm();
+      firing.point_m += (1e-3 * std::round(1e3 * range_m) - range_m) * firing.direction;
+    }
+    firing.direction = rotation * firing.direction;
+    firing.point_m = rotation * firing.point_m;
+  }
+  return firings;
+}
+
+/// The largest angle between the beams of points as they were and as they are found.
+double MostBeside_deg(const std::vector<KnownFiring>& firings,
+                      const RecordedFrame& recorded,
+                      const FoundSensor& found) {
+  double most_rad = 0.0;
+  std::size_t entry = 0;
+  for (const KnownFiring& firing : firings) {
+    if (firing.point_m.isZero()) continue;
+    const std::size_t cell = recorded.slot_of_entry[entry++] / recorded.frame.returns;
+    const auto [x, y, z] =
+        found.beams.Direction(cell / recorded.frame.columns, cell % recorded.frame.columns);
+    most_rad = std::max(most_rad, firing.direction.cross(Vector3(x, y, z)).norm());
+  }
+  return DegFromRad(most_rad);
+}
+
+class AxisOfFoundSensor : public testing::TestWithParam<Vector3> {};
+
+TEST_P(AxisOfFoundSensor, MakesNoDifferenceToItsBeams) {
+  const Vector3 axis = GetParam().normalized();
+  const Eigen::Matrix3d rotation =
+      Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), axis).toRotationMatrix();
+  const auto sensor = std::get<SpinningSpec>(ReadSensor("vlp16").pattern);
+  for (const Vector3& origin_m : {Vector3(0.0, 0.0, 0.0), Vector3(0.012, 0.0, 0.036)}) {
+    const std::vector<KnownFiring> firings = MadeFirings(sensor, origin_m);
+    const RecordedFrame upright = HiddenFrame(firings);
+    const FoundSensor standing = FindSensor(upright);
+    EXPECT_FALSE(standing.sensor_from_spin.has_value());
+    const std::vector<KnownFiring> turned = Turned(firings, rotation);
+    const RecordedFrame recorded = HiddenFrame(turned);
+    const FoundSensor found = FindSensor(recorded);
+    ASSERT_TRUE(found.sensor_from_spin.has_value());
+    EXPECT_LT(DegFromRad(found.sensor_from_spin->col(2).cross(axis).norm()), 0.001);
+    EXPECT_GT(found.sensor_from_spin->col(2).dot(axis), 0.0);
+    ASSERT_EQ(found.pattern.channels.size(), standing.pattern.channels.size());
+    for (std::size_t i = 0; i < standing.pattern.channels.size(); ++i) {
+      EXPECT_NEAR(found.pattern.channels[i].elevation_deg,
+                  standing.pattern.channels[i].elevation_deg, 2e-4);
+    }
+    EXPECT_NEAR(found.step_deg, standing.step_deg, 1e-5);
+    EXPECT_EQ(found.pattern.rotation, standing.pattern.rotation);
+    EXPECT_EQ(found.share_without_return, standing.share_without_return);
+    EXPECT_LT(MostBeside_deg(turned, recorded, found),
+              MostBeside_deg(firings, upright, standing) + 0.001);
+    const auto found_m = found.pattern.beam_origin_m.value_or(std::array{0.0, 0.0});
+    EXPECT_NEAR(found_m[0], origin_m.x(), 1e-4);
+    EXPECT_NEAR(found_m[1], origin_m.z(), 1e-4);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Axes,
+                         AxisOfFoundSensor,
+                         testing::Values(Vector3(1.0, 0.0, 0.0),
+                                         Vector3(0.0, -1.0, 0.0),
+                                         Vector3(0.966, 0.0, -0.259),
+                                         Vector3(0.05, -0.03, 1.0),
+                                         Vector3(-0.4, 0.7, 0.55)));
+
+TEST(FoundSensor, OfALevelAxisSaysSoAndIsWrittenAsIfItStood) {
+  const auto sensor = std::get<SpinningSpec>(ReadSensor("vlp16").pattern);
+  const std::vector<KnownFiring> firings = MadeFirings(sensor, Vector3::Zero());
+  const Eigen::Matrix3d rotation = RotationFromYawPitchRoll(0.0, RadFromDeg(75.0), 0.0);
+  const FoundSensor found = FindSensor(HiddenFrame(Turned(firings, rotation)));
+  EXPECT_EQ(found.AxisText(), "[0.966, 0, 0.259]");
+  EXPECT_EQ(FindSensor(HiddenFrame(firings)).AxisText(), "");
+  EXPECT_EQ(found.FileText().find("mount"), std::string::npos);
+}
+
+/// A real frame of an OS1-64 that lies on its side, with its axis; none: its origin is elsewhere.
+struct SideFrame {
+  const char* file;
+  const char* axis;
+};
+
+TEST(FoundSensor, IsTheOs1Of64RingsOfRealFramesAboutLevelAxes) {
+  for (const auto& [name, axis] :
+       std::initializer_list<SideFrame>{{"Jesenice1.pc", "[0, 0.966, -0.259]"},
+                                        {"Jesenice2.pc", "[0, -0.966, -0.259]"},
+                                        {"JesenicePartialObstacle.pc", "[0, 0.966, 0.259]"},
+                                        {"Vienna.csv", "[0, -0.257, 0.967]"},
+                                        {"Vizmarje.pc", "[1, 0, 0]"},
+                                        {"Vizmarje2.pc", "[1, 0, 0]"},
+                                        {"Vizmarje3.pc", "[1, 0, 0]"}}) {
+    SCOPED_TRACE(name);
+    const fs::path file = SharedFile("railway_frames") / name;
+    if (!exists(file)) GTEST_SKIP() << file << " is not there";
+    const FoundSensor found = FindSensor(*OpenRecording(file));
+    EXPECT_EQ(found.AxisText(), axis);
+    EXPECT_EQ(found.pattern.channels.size(), 64U);
+    EXPECT_NEAR(found.step_deg, 360.0 / 2048.0, 1e-5);
+    EXPECT_LT(found.elevation_error_deg, 1e-4);
+    EXPECT_LT(found.azimuth_error_deg, 5e-4);
+    ASSERT_TRUE(found.pattern.beam_origin_m.has_value());
+    EXPECT_NEAR((*found.pattern.beam_origin_m)[0], 0.01215, 5e-5);  // The maker says 12.163 mm.
+  }
+}
+
+TEST(FoundSensor, IsNoneOfARealFrameWhoseOriginWasMoved) {
+  const fs::path file = SharedFile("railway_frames/JeseniceFullObstacle.pc");
+  if (!exists(file)) GTEST_SKIP() << file << " is not there";
+  EXPECT_EQ(
+      MessageOf([&] { (void)FindSensor(*OpenRecording(file)); }),
+      "no spinning sensor is found: it has no field ring, and its elevations do not form rings");
+}
+
 TEST(FoundSensor, IsNoneOfSensorsThatDoNotSpin) {
   const fs::path at128 = SharedFile("hesai_calibration/at128_1679653308704927652.pcd");
   if (!exists(at128)) GTEST_SKIP() << at128 << " is not there";

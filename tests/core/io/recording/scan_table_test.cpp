@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "core/io/recording/sensor_axes.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/sensor_file.h"
@@ -39,6 +40,35 @@ TEST_P(ScanTableOf, PointsIsThatOfThePattern) {
 INSTANTIATE_TEST_SUITE_P(Sensors,
                          ScanTableOf,
                          testing::Values("vlp16", "vlp32c", "pandar64", "hdl32e"));
+
+TEST(ScanTable, OfASensorThatLiesOnItsSideIsInTheAxesOfItsPoints) {
+  const ScanPattern pattern = BuildScanPattern(ReadSensor("vlp16"));
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.parts = {{MakeSphere(20.0, 24, 48), 2, 1}};
+  const Frame upright = ScanOnce(world, pattern);
+  Frame frame = upright;
+  frame.sensor_from_spin = RotationFromYawPitchRoll(0.7, 1.2, 0.0);
+  for (std::size_t i = 0; i < frame.num_slots(); ++i) {
+    const Eigen::Vector3f turned_m =
+        frame.sensor_from_spin->cast<float>() * Eigen::Vector3f(frame.x[i], frame.y[i], frame.z[i]);
+    frame.x[i] = turned_m.x();
+    frame.y[i] = turned_m.y();
+    frame.z[i] = turned_m.z();
+  }
+  const auto table = MakeScanTable(frame);
+  ASSERT_TRUE(table);
+  for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
+    const Vector3 direction = *frame.sensor_from_spin * DirectionOf(pattern, i);
+    const auto found = table->Direction(pattern.row[i], pattern.column[i]);
+    ASSERT_NEAR((Vector3(found[0], found[1], found[2]) - direction).norm(), 0.0, 2e-6);
+  }
+  TurnToSpinAxes(frame);
+  EXPECT_FALSE(frame.sensor_from_spin.has_value());
+  for (std::size_t i = 0; i < frame.num_slots(); ++i) {
+    ASSERT_NEAR(frame.x[i], upright.x[i], 1e-5);
+    ASSERT_NEAR(frame.z[i], upright.z[i], 1e-5);
+  }
+}
 
 TEST(ScanTable, OfARasterHasItsSolidAngles) {
   const auto table = MakeScanTable(MakeRaster(60.0, 30.0, 0.25));
