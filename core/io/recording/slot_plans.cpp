@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -117,6 +119,27 @@ std::vector<std::uint32_t> RowsInSense(const std::vector<double>& elevations_rad
   return rows;
 }
 
+/// Turns positions so that the rows of their grid become level, if they are not and if that is
+/// possible, as those of a sensor that lies on its side.
+/// @returns SlotPlan::sensor_from_spin.
+std::optional<Eigen::Matrix3d> LevelRows(const Cloud& cloud,
+                                         const CloudField* ring,
+                                         PointPositions& positions,
+                                         StoredGrid& grid) {
+  constexpr double kLevel_rad = std::numbers::pi / 180.0;
+  constexpr double kClear = 16.0;  // A quarter of the standard deviation.
+  const double variance = VarianceInRows(grid, positions);
+  if (variance < kLevel_rad * kLevel_rad) return std::nullopt;
+  const auto sensor_from_spin = FindSpinAxis(positions);
+  if (!sensor_from_spin) return std::nullopt;
+  PointPositions turned = InSpinAxes(positions, *sensor_from_spin);
+  const StoredGrid again = FindGrid(cloud, turned, ring);
+  if (kClear * VarianceInRows(again, turned) > variance) return std::nullopt;
+  positions = std::move(turned);
+  grid = again;
+  return sensor_from_spin;
+}
+
 std::uint32_t LargestOf(const std::vector<std::uint32_t>& values) {
   return values.empty() ? 0 : *std::ranges::max_element(values);
 }
@@ -159,11 +182,16 @@ SlotPlan OrganisedPlan(const Cloud& cloud, std::uint32_t returns) {
 }
 
 SlotPlan SortedRowsPlan(const Cloud& cloud, const CloudField* ring) {
-  const PointPositions positions = LoadPositions(cloud);
-  const StoredGrid grid = FindGrid(cloud, positions, ring);
+  PointPositions positions = LoadPositions(cloud);
+  StoredGrid grid = FindGrid(cloud, positions, ring);
   if (grid.rows > kMaxRows) return LoosePlan(cloud, "it has more than 65536 rows");
-  SlotPlan plan{
-      .rows = grid.rows, .columns = grid.columns, .returns = 1, .slots = {}, .is_grid = true};
+  const auto sensor_from_spin = LevelRows(cloud, ring, positions, grid);
+  SlotPlan plan{.rows = grid.rows,
+                .columns = grid.columns,
+                .returns = 1,
+                .slots = {},
+                .is_grid = true,
+                .sensor_from_spin = sensor_from_spin};
   const std::vector<double> elevations_rad = RowElevations(grid, positions);
   const std::vector<std::uint32_t> stored = RowsInSense(elevations_rad);
   std::vector<std::pair<double, std::uint32_t>> order;

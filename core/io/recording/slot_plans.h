@@ -31,6 +31,7 @@ inline constexpr std::size_t kMaxSpareSlots = std::size_t{1} << 20U;
 /// Plans an organised cloud from any software: its rows are sorted by rising mean elevation, and a
 /// row without a point stays beside the row before it. Where each of its columns has the points of
 /// one ring, as in clouds of ROS drivers for Velodyne, the columns are taken for the rows.
+/// Elevations are those about the axis of the sensor, if rows are level about that and not about z.
 /// @param ring Null if the cloud does not say it.
 /// @pre The cloud has x, y and z.
 [[nodiscard]] SlotPlan SortedRowsPlan(const Cloud& cloud, const CloudField* ring);

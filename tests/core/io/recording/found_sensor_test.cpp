@@ -403,6 +403,29 @@ TEST(FoundSensor, OfALevelAxisSaysSoAndIsWrittenAsIfItStood) {
   EXPECT_EQ(found.FileText().find("mount"), std::string::npos);
 }
 
+TEST(FoundSensor, OfAnOrganisedCloudMayLieOnItsSide) {
+  const auto sensor = std::get<SpinningSpec>(ReadSensor("vlp16").pattern);
+  const Eigen::Matrix3d rotation = RotationFromYawPitchRoll(0.0, 0.0, RadFromDeg(-90.0));
+  const std::vector<KnownFiring> firings = Turned(MadeFirings(sensor, Vector3::Zero()), rotation);
+  std::string pcd =
+      "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 16\nHEIGHT " +
+      std::to_string(sensor.columns) + "\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " +
+      std::to_string(firings.size()) + "\nDATA binary\n";
+  for (const KnownFiring& firing : firings) {
+    const Eigen::Vector3f point_m = firing.point_m.cast<float>();
+    pcd.append(reinterpret_cast<const char*>(point_m.data()), sizeof(point_m));
+  }
+  const TemporaryDirectory directory;
+  WriteFileWhole(directory.path() / "turn.pcd", pcd);
+  const RecordedFrame recorded = ReadAll(directory.path() / "turn.pcd").front();
+  EXPECT_EQ(recorded.frame.rows, 16U);
+  const FoundSensor found = FindSensor(recorded);
+  EXPECT_EQ(found.AxisText(), "[0, 1, 0]");
+  EXPECT_EQ(found.pattern.channels.size(), 16U);
+  EXPECT_NEAR(found.pattern.channels.front().elevation_deg, -15.0, 1e-3);
+  EXPECT_LT(found.azimuth_error_deg, 0.001);
+}
+
 /// A real frame of an OS1-64 that lies on its side, with its axis; none: its origin is elsewhere.
 struct SideFrame {
   const char* file;
