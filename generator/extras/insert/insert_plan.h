@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,10 @@ struct InsertPlan {
   /// follow each other at the sensor's rate.
   std::vector<std::int64_t> frame_times_ns;
   IntensityScale intensity_scale{};  ///< The recording's scale.
-  std::vector<PlacedThing> places;   ///< Places of the objects, without the vehicles of trains.
+  /// Frame::sensor_from_spin of the recording's first frame: by the axes about whose z the sensor
+  /// spins, its beams and what is on its window are oriented.
+  std::optional<Eigen::Matrix3d> sensor_from_spin{};
+  std::vector<PlacedThing> places;  ///< Places of the objects, without the vehicles of trains.
   /// The plan as it was written, with the recording's sensor if it names none.
   ScenarioIdentity identity;
   /// What was found or assumed on the way, each in a sentence for the user.

@@ -36,6 +36,22 @@ SimulatorSpec SimulatorSpecOf(const ScenarioSpec& scenario) {
   return spec;
 }
 
+/// The pattern in axes into which `from_pattern` turns.
+ScanPattern Turned(ScanPattern pattern, const Eigen::Matrix3d& from_pattern) {
+  const Eigen::Matrix3f rotation = from_pattern.cast<float>();
+  const auto turn = [&](std::vector<float>& x, std::vector<float>& y, std::vector<float>& z) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const Eigen::Vector3f turned = rotation * Eigen::Vector3f(x[i], y[i], z[i]);
+      x[i] = turned.x();
+      y[i] = turned.y();
+      z[i] = turned.z();
+    }
+  };
+  turn(pattern.direction_x, pattern.direction_y, pattern.direction_z);
+  turn(pattern.origin_x_m, pattern.origin_y_m, pattern.origin_z_m);
+  return pattern;
+}
+
 Vector3 RecordedPoint_m(const RecordedFrame& recorded, std::size_t slot) {
   const Frame& frame = recorded.frame;
   return recorded.origin_m + Vector3(static_cast<double>(frame.x[slot]),
@@ -175,6 +191,7 @@ struct Inserter::Parts {
   SimulatorSpec spec;
   std::shared_ptr<const World> world;
   IntensityScale scale;
+  std::optional<Eigen::Matrix3d> sensor_from_spin;
   std::vector<std::int64_t> frame_times_ns;
   ScreenedScan scan;
   ObjectSurvey survey;
@@ -255,7 +272,9 @@ struct Inserter::Parts {
     Frame& frame = recorded.frame;
     const bool is_of_recorded = now.screen != kNoScreen;
     if (is_of_recorded) CopySlot(firings.recorded, returns.slots[now.screen], slot, recorded);
-    const Vector3 point_m = now.point_m.cast<double>() - recorded.origin_m;
+    Vector3 point_m = now.point_m.cast<double>();
+    if (sensor_from_spin) point_m = *sensor_from_spin * point_m;
+    point_m -= recorded.origin_m;
     frame.x[slot] = static_cast<float>(point_m.x());
     frame.y[slot] = static_cast<float>(point_m.y());
     frame.z[slot] = static_cast<float>(point_m.z());
@@ -324,12 +343,18 @@ Inserter::Inserter(const InsertPlan& plan, int num_threads, std::optional<double
   const SimulatorSpec spec = SimulatorSpecOf(plan.scenario);
   // All objects are told of, however far they are.
   constexpr double kAnywhere_m = std::numeric_limits<double>::infinity();
+  SimulatorSpec of_scan = spec;
+  if (plan.sensor_from_spin) {
+    of_scan.vehicle_from_sensor =
+        spec.vehicle_from_sensor * MakeTransform(*plan.sensor_from_spin, Vector3::Zero());
+  }
   parts_.reset(
       new Parts{.spec = spec,
                 .world = plan.world,
                 .scale = plan.intensity_scale,
+                .sensor_from_spin = plan.sensor_from_spin,
                 .frame_times_ns = plan.frame_times_ns,
-                .scan{plan.world, plan.scenario.materials, spec, num_threads},
+                .scan{plan.world, plan.scenario.materials, of_scan, num_threads},
                 .survey{*plan.world, LabelTable(plan.scenario.labels), kAnywhere_m, OutputSpec{}}});
   if (certify) parts_->UseCertificates(plan.scenario, *certify);
 }
@@ -351,9 +376,12 @@ InsertedFrame Inserter::Insert(const RecordedFirings& firings, std::uint32_t fra
   InsertedFrame inserted;
   inserted.recorded = firings.recorded;
   RecordedReturns returns = ReturnsIn(firings, parts.spec.detector, parts.scale);
+  const ScanPattern turned = parts.sensor_from_spin
+                                 ? Turned(firings.pattern, parts.sensor_from_spin->transpose())
+                                 : ScanPattern{};
   const RecordedScan recorded = {.index = frame_index,
                                  .stamp_ns = time_ns,
-                                 .pattern = firings.pattern,
+                                 .pattern = parts.sensor_from_spin ? turned : firings.pattern,
                                  .first = returns.first,
                                  .returns = returns.screens};
   ScreenedScan::Certify certify;

@@ -66,7 +66,9 @@ float PeakKeptAt(const RecordedFirings& firings,
   if (firings.are_points_alone) return 1.0F;
   const Vector3 point_m = PointIn(frame, slot);
   const Vector3 direction = point_m.normalized();
-  const Vector3 horizontal = Vector3::UnitZ().cross(direction).normalized();
+  const Vector3 axis =
+      frame.sensor_from_spin ? Vector3(frame.sensor_from_spin->col(2)) : Vector3::UnitZ();
+  const Vector3 horizontal = axis.cross(direction).normalized();
   const Vector3 vertical = direction.cross(horizontal);
   const auto to_neighbour_m = [&](int rows, int columns) -> std::optional<Vector3> {
     const auto beside = SlotBeside(firings, firing, rows, columns);

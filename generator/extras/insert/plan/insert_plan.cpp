@@ -223,8 +223,10 @@ void UseSensorOfPoints(const std::filesystem::path& recording,
   try {
     const FoundSensor found = FindSensor(*OpenRecording(recording));
     plan.lidar = ReadSensorFile(found.FileText(), plan);
+    const std::string axis = found.AxisText();
     remarks.push_back("the sensor is what the points show, with default range and power: the " +
-                      std::string("plan's lidar may say otherwise: ") + found.Text());
+                      std::string("plan's lidar may say otherwise: ") + found.Text() +
+                      (axis.empty() ? "" : ", spins about " + axis + " of the recording's axes"));
   } catch (const InputError& error) {
     throw InputError(
         {{plan.sources.Place("/lidar"),
@@ -346,8 +348,8 @@ void UseLine(const RecordedLine& line, const RecordedWay& way, ScenarioSpec& pla
   plan.vehicle.pivot_distance_m = 0.0;
 }
 
-/// Finds the scale of the intensities in the first frames.
-void UseIntensityScale(const std::filesystem::path& recording, InsertPlan& plan) {
+/// Finds the scale of the intensities, and the axes of the sensor, in the first frames.
+void UseFirstFrames(const std::filesystem::path& recording, InsertPlan& plan) {
   constexpr std::size_t kMostFrames = 10;
   const auto opened = OpenRecording(recording);
   IntensityScaleFinder finder(opened->info());
@@ -357,6 +359,7 @@ void UseIntensityScale(const std::filesystem::path& recording, InsertPlan& plan)
     const RecordedFrame recorded = (*read)();
     (void)CheckRanges(recorded, opened->info(),
                       plan.scenario.lidar.range_max_m);  // Before anything is written.
+    if (frame == 0) plan.sensor_from_spin = recorded.frame.sensor_from_spin;
     finder.Add(recorded);
   }
   plan.intensity_scale = finder.Found();
@@ -416,7 +419,7 @@ InsertPlan MakeInsertPlan(const RecordedRun& run, const ScenarioSpec& plan_spec)
   plan.frame_times_ns = run.way.frame_times_ns;
   plan.world = std::make_shared<const RecordedWorld>(run.way, things, std::move(stands));
   SetPlaces(run.line, *things, plan);
-  UseIntensityScale(run.recording, plan);
+  UseFirstFrames(run.recording, plan);
   const bool has_things = !plan_spec.world.objects.empty() || !plan_spec.world.trains.empty();
   if (has_things && !run.intensities.empty()) plan.remarks.push_back(run.intensities);
   return plan;
