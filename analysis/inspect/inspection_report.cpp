@@ -64,6 +64,20 @@ Section JobsSection(const std::vector<JobFitness>& jobs) {
   return {.key = "jobs", .title = "What it is fit for", .tables = {std::move(table)}};
 }
 
+/// Says about which axis the sensor spins, if that is not z, and how scenarios turn it so.
+void AddAxis(const SensorSearch& sensor, Findings& findings) {
+  const std::string axis = sensor.found ? sensor.found->AxisText() : "";
+  if (axis.empty()) return;
+  const Vector3 spin = sensor.found->sensor_from_spin->col(2);
+  const auto degrees = [](double y, double x) {
+    return NumberText(std::round(1e4 * DegFromRad(std::atan2(y, x))) / 1e4 + 0.0);
+  };
+  findings.Add("axis of rotation", axis,
+               "of the recording's axes; the mount of a scenario turns the sensor so by yaw_deg " +
+                   degrees(spin.y(), spin.x()) + ", pitch_deg " +
+                   degrees(spin.head<2>().norm(), spin.z()));
+}
+
 Section SensorSection(const RecordingLook& seen, const RecordingInfo& info) {
   Findings findings("what", "What it is");
   findings.Add("kind", info.kind);
@@ -83,6 +97,7 @@ Section SensorSection(const RecordingLook& seen, const RecordingInfo& info) {
                  std::string(best.error_deg < kSureGuess_deg ? "by its rings: " : "likely: ") +
                      "elevations are off by " + ShortText(best.error_deg) + " deg rms");
   }
+  AddAxis(seen.sensor, findings);
   std::vector<std::string> fields;
   for (const auto& [name, num] : seen.fields) fields.push_back(name);
   findings.Add("fields", Join(fields));

@@ -78,6 +78,25 @@ TEST(GuessSensor, IsNotSureOfRingsThatNoPresetHas) {
   EXPECT_THAT(LookText(look), HasSubstr("16 rings from -15 to 15 deg, step 0."));
 }
 
+TEST(Inspect, SaysAboutWhichAxisASensorSpinsThatDoesNotStand) {
+  auto frames = FramesOf("vlp16", 1);
+  EXPECT_THAT(LookText(LookAt(frames)), Not(HasSubstr("axis of rotation")));
+  Frame& frame = frames.front().frame;
+  frame.sensor_from_spin = RotationFromYawPitchRoll(0.0, RadFromDeg(75.0), 0.0);
+  const Eigen::Matrix3f rotation = frame.sensor_from_spin->cast<float>();
+  for (std::size_t i = 0; i < frame.num_slots(); ++i) {
+    const Eigen::Vector3f turned_m = rotation * Eigen::Vector3f(frame.x[i], frame.y[i], frame.z[i]);
+    frame.x[i] = turned_m.x();
+    frame.y[i] = turned_m.y();
+    frame.z[i] = turned_m.z();
+  }
+  const RecordingLook look = LookAt(frames);
+  EXPECT_EQ(GuessSensor(look.rings).front().name, "VLP-16");
+  EXPECT_EQ(FitnessFor("weather", look), Fitness::kWithOption);
+  EXPECT_THAT(LookText(look), HasSubstr("[0.966, 0, 0.259]"));
+  EXPECT_THAT(LookText(look), HasSubstr("yaw_deg 0, pitch_deg 75"));
+}
+
 TEST(Inspect, CountsFramesAndLooksAtNoMoreThanAskedFor) {
   const RecordingLook look = LookAt(FramesOf("vlp16", 4), 3);
   EXPECT_EQ(look.num_frames, 3U);
