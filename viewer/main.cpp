@@ -278,7 +278,8 @@ void WritePlan(const ViewOptions& options) {
 /// Carries out what the command line asks for.
 /// @throws InputError with one line if something cannot be read, shown or written.
 void RunViewer(const ViewOptions& options) {
-  CheckOutputFiles({}, {{"--screenshot", options.screenshot}, {"--video", options.video}});
+  CheckOutputFiles({}, {{"--screenshot", options.screenshot}});
+  if (!options.video.empty()) CheckIsOutside("--video", options.video);
   if (options.is_plan()) {
     WritePlan(options);
     return;
