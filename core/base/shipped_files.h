@@ -9,7 +9,8 @@ namespace railcast {
 /// The name of a file that the library holds begins with this: "railcast:car.ply".
 inline constexpr std::string_view kShippedPrefix = "railcast:";
 
-/// The content of a file of scenarios/models, which the library holds so that a program finds it
+/// The content of a file of scenarios/models, or of scenarios/labels.json or
+/// scenarios/materials/railway.json, which the library holds so that a program finds it
 /// wherever it runs.
 /// @param name With the prefix.
 [[nodiscard]] std::optional<std::string_view> ShippedFile(std::string_view name);

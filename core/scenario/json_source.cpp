@@ -225,6 +225,9 @@ void JsonSource::Missing(const Node& object, std::string_view key) {
 }
 
 std::optional<Node> JsonSource::Load(SourceFile file, std::string resolved_pointer) {
+  if (const auto shipped = ShippedFile(file.absolute.native())) {
+    return Parse(std::string(*shipped), std::move(file), std::move(resolved_pointer));
+  }
   NoteInput(file.absolute);
   const std::string text = ReadFileWhole(file.absolute);
   return Parse(text, std::move(file), std::move(resolved_pointer));

@@ -72,7 +72,7 @@ TEST(ShippedModels, HaveTheVerticesAndTrianglesOfTheirFilesBitByBit) {
 }
 
 TEST(ShippedModels, UseEveryFileOfTheirFolder) {
-  std::set<std::string> used = {"models.json"};
+  std::set<std::string> used = {"labels.json", "models.json", "railway.json"};
   for (const ObjectType& type : ShippedTypes()) {
     std::vector<std::string> files = {type.model->file};
     if (IsRailVehicle(type)) files.push_back(type.model->rail_vehicle->bogie);
