@@ -12,7 +12,7 @@ import re
 import sys
 
 # A folder of core may include only itself and the folders before it.
-CORE_ORDER = "base frame scene mesh rail scan trace detect simulate camera motion scenario fidelity certify c io points program extras".split()
+CORE_ORDER = "base frame scene mesh rail scan trace detect simulate camera motion scenario fidelity certify c io points track program extras".split()
 # The rooms of a folder: each includes only itself and those before it. Files on the top of the folder come where "."
 # stands; without it there may be none.
 ROOM_ORDERS = {
@@ -29,7 +29,7 @@ ROOM_ORDERS = {
     "generator/extras/insert": ". plan firings clouds packets run".split(),
     "generator/extras/import": "map fit heights lines network structures .".split(),
     "analysis": "estimate report limits pictures stats inspect compare detectability frontier receive . extras".split(),
-    "analysis/extras": "card detectors sight rare study preset fit dossier".split(),
+    "analysis/extras": "card detectors sight track rare study preset fit dossier".split(),
     "viewer": "color frames overlays composition draw plan session pick picture gui .".split(),
 }
 # The public headers, included by programs that embed railcast. Each header belongs to the folder
@@ -55,7 +55,7 @@ LIBRARY_OWNERS = {
     "nlohmann": (r"nlohmann/",
                  ("core/mesh", "core/scenario", "core/fidelity", "core/io", "core/extras", "generator",
                   "analysis")),
-    "PCL": (r"pcl/", ("core/io", "core/points", "core/include/railcast/io", "generator", "analysis")),
+    "PCL": (r"pcl/", ("core/io", "core/points", "core/track", "core/include/railcast/io", "generator", "analysis")),
     "libpcap": (r"pcap/", ("core/extras/packets",)),
     "yaml-cpp": (r"yaml-cpp/", ("core/io", "core/extras")),
     "Boost.Asio": (r"boost/(?:asio|beast)/", ("core/io/net",)),
@@ -98,7 +98,7 @@ TYPE_DEFINITION = re.compile(
 
 # Sources compiled as one library; release builds compile several of them in one translation unit.
 # Each extra is a library of its own.
-LIBRARIES = ("core/c", "core/io", "core/points", "core/program", "core", "generator/python", *PROGRAMS)
+LIBRARIES = ("core/c", "core/io", "core/points", "core/program", "core/track", "core", "generator/python", *PROGRAMS)
 EXTRA = re.compile(r"(core|generator|analysis)/extras/(\w+)/")
 USED_EXTRAS = re.compile(r"^railcast_extra\(\s*USES ((?:\w+/\w+\s+)+)", re.MULTILINE)
 ANONYMOUS_FUNCTION = re.compile(
