@@ -18,6 +18,7 @@ void AddCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& comman
   railcast::AddDetect(app, command);
   add_of_extra("detectors", "evaluate");
   add_of_extra("sight", "sight");
+  add_of_extra("track", "track");
   add_of_extra("study", "study");
   add_of_extra("dossier", "dossier");
   add_of_extra("fit", "fit");

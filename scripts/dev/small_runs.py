@@ -67,6 +67,7 @@ ROWS = (
     ("railcast-analyze detect", "drive --out detect", ["detect/report.html", "detect/detect.json"], None),
     ("railcast-analyze evaluate", "drive --out evaluate", ["evaluate/report.html", "evaluate/evaluate.json"], None),
     ("railcast-analyze sight", "drive.json --step-m 50 --out sight", ["sight/report.html", "sight/sight.json"], None),
+    ("railcast-analyze track", "drive --out track", ["track/mount.json", "track/track.json"], None),
     ("railcast-analyze study", "study.json --out study", ["study/report.html", "study/study.json"], None),
     ("railcast-analyze study", "rare.json --rare --out rare", "Not detected in time", None),
     ("railcast-analyze dossier", "study --out dossier", ["dossier/dossier.pdf", "dossier/report.html"], None),

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "analysis/report/report.h"
+#include "core/track/track_survey.h"
+#include "railcast/io/recording.h"
+
+namespace railcast {
+
+extern const char* const kTrackWords;
+
+/// The report of `railcast-analyze track`: mount, track and further tracks with their intervals,
+/// and the figures of every frame.
+/// @param command The command line.
+[[nodiscard]] Report MakeTrackReport(const TrackSurvey& survey, const std::string& command);
+
+/// The mount of a recording's sensor as JSON, as scenarios and plans take it.
+[[nodiscard]] std::string MountText(const TrackSurvey& survey);
+
+/// A scenario like what was recorded: the recording's sensor where it is on the track, the track's
+/// gauge, curvature and cant, and the tracks beside it. The vehicle stands.
+/// @param source The recording, which is opened once more for its sensor where no scenario says it.
+/// @throws InputError "recording: rule" if it does not show its sensor.
+[[nodiscard]] std::string TwinText(const TrackSurvey& survey, const std::filesystem::path& source);
+
+}  // namespace railcast

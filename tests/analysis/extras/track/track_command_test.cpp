@@ -1,0 +1,80 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/io/write_file.h"
+#include "tests/analysis/analyze_program.h"
+
+namespace railcast {
+namespace {
+
+using testing::HasSubstr;
+
+/// A sequence whose sensor is 2.5 m above the rails and 0.2 m left of the middle, on a track with a
+/// second one at 4.5 m.
+std::filesystem::path MakeRun(const TemporaryFolder& folder) {
+  const std::string scenarios = ScenariosDir().string();
+  const auto scenario = folder.Write("scenario.json", R"({
+    "version": 1,
+    "fidelity": "footprint",
+    "lidar": {"file": ")" + scenarios + R"(/sensors/xt32.json",
+              "mount": {"position_m": [2, 0.2, 2.5], "pitch_deg": 10}},
+    "world": {
+      "alignment": {
+        "course": {"type": "elements", "elements": [{"type": "straight", "length_m": 1000}]}
+      },
+      "tracks": [{"name": "main"}, {"name": "second", "offset_m": 4.5}]
+    },
+    "vehicle": {"start_s_m": 400, "motion": {"profile": [{"time_s": 0, "speed_mps": 10}]}},
+    "materials": "railcast:railway.json",
+    "labels": "railcast:labels.json"})");
+  auto out = scenario.parent_path() / "run";
+  GenerateOnce("sequence " + scenario.string() + " --frames 4", out);
+  return out;
+}
+
+nlohmann::json JsonIn(const std::filesystem::path& file) {
+  return nlohmann::json::parse(ReadFileWhole(file));
+}
+
+TEST(TrackCommand, WritesTheMountAndATwinThatRuns) {
+  const TemporaryFolder folder;
+  const auto run = MakeRun(folder);
+  const auto out = run.parent_path() / "out";
+  const Ended track = Analyze("track " + run.string() + " --out " + out.string());
+  ASSERT_EQ(track.status, 0) << track.said;
+  EXPECT_THAT(track.said, HasSubstr("Sensor above the rails (m)"));
+  const auto mount = JsonIn(out / "mount.json");
+  EXPECT_EQ(mount.at("position_m").at(0), 0.0);
+  EXPECT_NEAR(mount.at("position_m").at(1), 0.2, 0.015);
+  EXPECT_NEAR(mount.at("position_m").at(2), 2.5, 0.01);
+  EXPECT_NEAR(mount.at("pitch_deg"), 10.0, 0.1);
+  const auto twin = JsonIn(out / "twin.json");
+  EXPECT_EQ(twin.at("lidar").at("mount"), mount);
+  EXPECT_EQ(twin.at("world").at("alignment").at("gauge_mm"), 1435.0);
+  EXPECT_NEAR(twin.at("world").at("tracks").at(1).at("offset_m"), 4.5, 0.03);
+
+  const auto again = run.parent_path() / "twin";
+  const Ended made = RunCommand(RAILCAST_GENERATE " sequence " + (out / "twin.json").string() +
+                                " --frames 1 --out " + again.string());
+  ASSERT_EQ(made.status, 0) << made.said;
+  ASSERT_EQ(
+      Analyze("track " + again.string() + " --out " + (run.parent_path() / "b").string()).status,
+      0);
+  EXPECT_NEAR(JsonIn(run.parent_path() / "b/mount.json").at("position_m").at(2),
+              mount.at("position_m").at(2), 0.01);
+}
+
+TEST(TrackCommand, SaysWhyThereIsNoTrack) {
+  const TemporaryFolder folder;
+  const auto run = MakeRun(folder);
+  const Ended track = Analyze("track " + run.string() + " --gauge 1000 --format text");
+  EXPECT_EQ(track.status, 1);
+  EXPECT_THAT(track.said, HasSubstr(run.string() + ": no frame shows a track: "));
+}
+
+}  // namespace
+}  // namespace railcast
