@@ -178,6 +178,9 @@ void Describe(Archive& a, RecordingWorldSpec& s) {
   a.Optional("alignment", s.alignment,
              "The line along which chainages count; absent = the way of the sensor's vehicle, from "
              "where it is in the first frame.");
+  a.Optional("track", s.track,
+             "found: the sensor is where the clouds show it above a track, and lidar.mount is left "
+             "out. Absent = the sensor is where lidar.mount says.");
 }
 
 void Describe(Archive& a, HalfWidth& s) {

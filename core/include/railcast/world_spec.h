@@ -209,11 +209,20 @@ inline constexpr auto kEnumNames<PoseSource> =
                                          {PoseSource::kStanding, "standing"},
                                          {PoseSource::kRegistered, "registered"}});
 
+/// Where the mount of a recording's sensor comes from, if the plan does not give it.
+enum class MountSource {
+  kFound,  ///< From where the clouds show the track.
+};
+template <>
+inline constexpr auto kEnumNames<MountSource> =
+    std::to_array<EnumName<MountSource>>({{MountSource::kFound, "found"}});
+
 /// A recording as a world: what a plan of railcast-generate insert has in place of an alignment.
 struct RecordingWorldSpec {
   std::optional<PoseSource> poses{};         ///< Absent: recorded.
   std::optional<std::string> poses_file{};   ///< File that has the poses instead.
   std::optional<AlignmentSpec> alignment{};  ///< Absent: the line is the path of the vehicle.
+  std::optional<MountSource> track{};        ///< Absent: the mount is that of the plan's sensor.
 
   bool operator==(const RecordingWorldSpec&) const = default;
 };

@@ -25,6 +25,7 @@
 #include "core/rail/line/line_place.h"
 #include "core/scenario/json_source.h"
 #include "core/scenario/ouster_metadata.h"
+#include "core/track/track_survey.h"
 #include "generator/extras/insert/intensity_scale.h"
 #include "generator/extras/insert/plan/recorded_intensities.h"
 #include "generator/extras/insert/plan/recorded_line.h"
@@ -268,6 +269,29 @@ void UseSensorOf(const std::filesystem::path& recording,
   remarks.push_back(std::move(remark));
 }
 
+/// Gives the plan's sensor the place above the track that the recording shows.
+/// @param remarks Receives it.
+/// @throws InputError as SurveyTracks() does.
+void UseFoundTrack(const std::filesystem::path& recording,
+                   ScenarioSpec& plan,
+                   std::vector<std::string>& remarks) {
+  constexpr std::size_t kMostFrames = 50;
+  const TrackSurvey survey = SurveyTracks(*OpenRecording(recording),
+                                          {.gauge_m = {}, .num_frames = kMostFrames}, [](auto) {});
+  const MountSpec mount = survey.Mount();
+  plan.lidar.mount = mount;
+  plan.world.recording->track.reset();
+  const auto text = [](const FigureOfFrames& figure) {
+    return ShortText(figure.median.value) + " m (to " + ShortText(figure.median.margin) + ")";
+  };
+  remarks.push_back("the sensor is " + text(survey.height_m) + " above the rails of a track that " +
+                    NumberText(survey.num_own) + " of " + NumberText(survey.frames.size()) +
+                    " frames show, and " + text(survey.sideways_m) +
+                    " left of its middle, with yaw " + ShortText(mount.yaw_deg) + ", pitch " +
+                    ShortText(mount.pitch_deg) + " and roll " + ShortText(mount.roll_deg) +
+                    " degrees");
+}
+
 /// Gives a plan that names no rung the one that what is put in needs, unless the plan switches
 /// effects of the published model on.
 /// @param remarks Receives which one it is.
@@ -293,6 +317,10 @@ void CheckSections(const ScenarioSpec& plan) {
   ErrorList errors;
   const auto place = [&](std::string_view pointer) { return plan.sources.Place(pointer); };
   if (!plan.world.recording) errors.Add({place("/world/recording"), "missing", ""});
+  if (plan.world.recording && plan.world.recording->track && plan.lidar.mount != MountSpec{}) {
+    errors.Add({place("/lidar/mount"),
+                "must be left out beside world.recording.track, which finds it", ""});
+  }
   const auto refuse = [&](bool is_given, std::string_view pointer) {
     if (is_given) {
       errors.Add({place(pointer), "must be left out of a plan, whose world is a recording", ""});
@@ -387,6 +415,7 @@ RecordedRun ReadRecordedRun(const std::filesystem::path& plan_file,
   UseRung(plan_file, run.plan, run.remarks);
   UseSensorOf(recording, run.plan, run.remarks);
   const RecordingWorldSpec& world = *run.plan.world.recording;
+  if (world.track) UseFoundTrack(recording, run.plan, run.remarks);
   run.way = ReadRecordedWay(recording, world, run.plan.lidar, run.remarks);
   const auto measured = MeasureIntensities(plan_file, run.plan, recording, run.way.at_frames);
   if (measured) run.intensities = UseIntensities(*measured, run.plan);

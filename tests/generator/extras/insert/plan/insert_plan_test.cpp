@@ -11,12 +11,14 @@
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/made_sequence.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/core/track/bars.h"
 #include "tests/generator/extras/insert/plan/plan_project.h"
 
 namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -101,6 +103,31 @@ TEST(InsertPlan, TrainsRunAlongTheDrivenPath) {
   ASSERT_EQ(run.message, "no error");
   EXPECT_NEAR(run.PlaceOf(0, 2.0).x() - run.PlaceOf(0, 0.0).x(), 20.0, 1e-6);
   EXPECT_NEAR(run.PlaceOf(0).z(), 0.0, 1e-6);
+}
+
+TEST(InsertPlan, TakesTheMountFromTheTrackThatTheCloudsShow) {
+  const TemporaryDirectory folder;
+  std::vector<std::string> points;
+  for (const Eigen::Vector3f& point_m :
+       PointsOfBars(2.5, {{0.4 + 0.7535, 0.072, 0.17}, {0.4 - 0.7535, 0.072, 0.17}})) {
+    points.push_back(std::to_string(point_m.x()) + " " + std::to_string(point_m.y()) + " " +
+                     std::to_string(point_m.z()));
+  }
+  const fs::path source = WriteReceived(folder.path() / "run", StraightRun(2, 20.0), points);
+  const fs::path file =
+      WritePlan(folder.path(), R"({"track": "found"})", "", VelodyneOfPlan() + kNamedRung);
+  const InsertPlan plan = ReadInsertPlan(file, source);
+  const MountSpec& mount = plan.scenario.lidar.mount;
+  EXPECT_NEAR(mount.position_m[1], -0.4, 0.01);
+  EXPECT_NEAR(mount.position_m[2], 2.33, 0.01);
+  EXPECT_THAT(plan.remarks, Contains(StartsWith("the sensor is 2.33")));
+
+  const std::string placed = R"("lidar": {"file": ")" RAILCAST_SOURCE_DIR
+                             R"(/scenarios/sensors/vlp16.json", "mount": {"yaw_deg": 1}}, )";
+  const fs::path both = WritePlan(folder.path(), R"({"track": "found"})", "", placed);
+  EXPECT_THAT(MessageOf([&] { (void)ReadInsertPlan(both, source); }),
+              HasSubstr("/lidar/mount: must be left out beside world.recording.track, which finds "
+                        "it"));
 }
 
 TEST(InsertPlan, HasTheRungThatWhatIsPutInNeedsUnlessItNamesOne) {
