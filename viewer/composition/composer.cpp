@@ -14,6 +14,7 @@
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/scan_table.h"
 #include "core/points/nearest_points.h"
+#include "core/track/track_survey.h"
 #include "railcast/frame.h"
 #include "railcast/io/recording.h"
 #include "railcast/lidar.h"
@@ -150,7 +151,7 @@ void Composer::AddEmptyBeams(const RecordedFrame& recorded, Composition& composi
 
 std::string Composer::Missing(const ShownFrame& shown, const Choices& choices) const {
   const OverlayChoices& overlays = choices.overlays;
-  const bool needs_world = overlays.track || overlays.gauge || overlays.mesh;
+  const bool needs_world = overlays.gauge || overlays.mesh;
   if (choices.empty_beams && !shown.recorded->is_grid) {
     return "beams without return need a frame in which every firing has its place";
   }
@@ -162,9 +163,13 @@ std::string Composer::Missing(const ShownFrame& shown, const Choices& choices) c
                   : "the frustum needs the scenario or a grid of firings";
   }
   if (needs_world && !world_) {
-    return "track, gauge and surfaces need the scenario, which is not known";
+    return "gauge and surfaces need the scenario, which is not known";
   }
-  if (needs_world && !shown.recorded->has_pose) {
+  if (overlays.track && !world_) {
+    const std::string why_not = FindTracks(*shown.recorded, std::nullopt).why_not;
+    if (!why_not.empty()) return "no track is found: " + why_not;
+  }
+  if ((needs_world || (overlays.track && world_)) && !shown.recorded->has_pose) {
     return "track, gauge and surfaces need the sensor's pose, which is not known";
   }
   if (overlays.boxes && shown.recorded->objects.empty() && info_.kind != "sequence" &&
@@ -190,6 +195,8 @@ void Composer::AddOverlays(const ShownFrame& shown,
     const double range_m = world_ ? info_.scenario->lidar.range_max_m : kUnknownRange_m;
     if (table) AddTo(DrawSensorFrustum(*table, range_m), composition.overlays);
   }
+  if (choices.track && !world_)
+    AddTo(DrawFoundTracks(FindTracks(recorded, std::nullopt).tracks), composition.overlays);
   if (!world_ || !recorded.has_pose) return;
   if (choices.track) AddTo(DrawTrackAxis(world_->surroundings, recorded), composition.overlays);
   if (choices.mesh) world_->AddSurfaces(recorded, composition);

@@ -71,7 +71,7 @@ class Composer {
 
   [[nodiscard]] const RecordingInfo& info() const { return info_; }
 
-  /// Says which of the choices cannot be drawn, and why: "track, gauge and surfaces need the
+  /// Says which of the choices cannot be drawn, and why: "gauge and surfaces need the
   /// scenario, which is not known"; empty if all can.
   [[nodiscard]] std::string Missing(const ShownFrame& shown, const Choices& choices) const;
 

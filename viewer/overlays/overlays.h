@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/io/recording/scan_table.h"
+#include "core/track/found_track.h"
 #include "railcast/frame.h"
 #include "railcast/io/recording.h"
 #include "railcast/lidar.h"
@@ -97,6 +98,11 @@ inline constexpr double kAxisAhead_m = 400.0;
 /// the frame has no pose.
 [[nodiscard]] Overlay DrawTrackAxis(const Surroundings& surroundings,
                                     const RecordedFrame& recorded);
+
+/// Draws the tracks that a frame itself shows, for recordings without a scenario: both heads and,
+/// along the track that is nearest to the sensor, a cross tick every 5 m with the distance from the
+/// sensor, as far as the heads are seen.
+[[nodiscard]] Overlay DrawFoundTracks(const std::vector<FoundTrack>& tracks);
 
 // The strokes that overlays are made of, from positions in double precision in the sensor's axes.
 

@@ -206,7 +206,9 @@ TEST(Compose, SaysWhatCannotBeDrawnAndWhy) {
     Choices choices;
     choices.overlays.*overlay = true;
     EXPECT_EQ(without_scenario.Missing(*bare, choices),
-              "track, gauge and surfaces need the scenario, which is not known");
+              overlay == &OverlayChoices::track
+                  ? "no track is found: no ground is seen"
+                  : "gauge and surfaces need the scenario, which is not known");
     EXPECT_EQ(with_scenario.Missing(*bare, choices),
               "track, gauge and surfaces need the sensor's pose, which is not known");
   }

@@ -260,10 +260,9 @@ TEST_F(Overlays, AreRefusedWhereTheyCannotBeDrawn) {
     EXPECT_FALSE(std::filesystem::exists(PathOf("out.png")));
     return ended.said;
   };
-  for (const std::string what : {"track", "gauge", "surfaces"}) {
-    EXPECT_EQ(
-        fault_of(what),
-        "error: " + cloud + ": track, gauge and surfaces need the scenario, which is not known\n");
+  for (const std::string what : {"gauge", "surfaces"}) {
+    EXPECT_EQ(fault_of(what),
+              "error: " + cloud + ": gauge and surfaces need the scenario, which is not known\n");
   }
   EXPECT_EQ(fault_of("boxes"),
             "error: " + cloud + ": boxes need a sequence's objects, or a scenario and poses\n");

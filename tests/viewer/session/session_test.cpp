@@ -220,7 +220,7 @@ TEST(Session, SaysWhichOverlaysAreMissing) {
   choices.overlays.track = true;
   Session session({&frames}, choices);
   ASSERT_TRUE(session.Seek(0));
-  EXPECT_EQ(session.Missing(), "track, gauge and surfaces need the scenario, which is not known");
+  EXPECT_EQ(session.Missing(), "no track is found: no ground is seen");
 }
 
 TEST(Session, KnowsTheTimeFromFrameToFrame) {
