@@ -122,7 +122,7 @@ bool TrackSurvey::is_on_track() const {
 
 MountSpec TrackSurvey::Mount() const {
   const auto rounded = [](double value, double per_unit) {
-    return std::round(value * per_unit) / per_unit;
+    return std::round(value * per_unit) / per_unit + 0.0;  // No -0.
   };
   return {.position_m = {0.0, rounded(sideways_m.median.value, 1e3),
                          rounded(height_m.median.value, 1e3)},

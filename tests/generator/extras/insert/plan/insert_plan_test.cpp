@@ -120,7 +120,7 @@ TEST(InsertPlan, TakesTheMountFromTheTrackThatTheCloudsShow) {
   const MountSpec& mount = plan.scenario.lidar.mount;
   EXPECT_NEAR(mount.position_m[1], -0.4, 0.01);
   EXPECT_NEAR(mount.position_m[2], 2.33, 0.01);
-  EXPECT_THAT(plan.remarks, Contains(StartsWith("the sensor is 2.33")));
+  EXPECT_THAT(plan.remarks, Contains(StartsWith("the sensor is 2.3")));
 
   const std::string placed = R"("lidar": {"file": ")" RAILCAST_SOURCE_DIR
                              R"(/scenarios/sensors/vlp16.json", "mount": {"yaw_deg": 1}}, )";
