@@ -58,58 +58,81 @@ bool AreSame(const FoundTrack& a, const FoundTrack& b) {
   return std::abs(a.Place_m(b.track_from_sensor.inverse() * middle_m).y()) < kSame_m;
 }
 
+/// The points in axes that a track may have.
+struct SeenPoints {
+  Eigen::Matrix3d local_from_sensor;
+  std::vector<Vector3> local_m;
+  std::vector<Vector3> raised_m;
+};
+
+SeenPoints SeenIn(const Eigen::Matrix3d& local_from_sensor,
+                  const std::vector<Eigen::Vector3f>& points_m) {
+  SeenPoints seen{.local_from_sensor = local_from_sensor, .local_m = {}, .raised_m = {}};
+  std::vector<Eigen::Vector3f> float_m;
+  for (const Eigen::Vector3f& point_m : points_m) {
+    seen.local_m.emplace_back(local_from_sensor * point_m.cast<double>());
+    float_m.emplace_back(seen.local_m.back().cast<float>());
+  }
+  seen.raised_m = RaisedPoints(float_m);
+  return seen;
+}
+
+/// The pair of ridges with the highest score that is no track.
+struct BestRefused {
+  double score{};
+  std::string why_not;
+};
+
+std::vector<FoundTrack> TracksIn(const SeenPoints& seen,
+                                 const std::vector<double>& gauges_m,
+                                 BestRefused& refused) {
+  std::vector<double> apart_m;
+  for (const double each_m : gauges_m) apart_m.push_back(each_m + kHeadWidth_m);
+  std::vector<TrackFit> fits;
+  for (const TrackGuess& guess : GuessTracks(seen.raised_m, apart_m)) {
+    TrackFit fit = FitTrack(seen.local_m, seen.raised_m, guess);
+    const bool is_gauge = std::ranges::any_of(gauges_m, [&](double each_m) {
+      return std::abs(fit.track.gauge_m.value - each_m) < kMostGaugeError_m;
+    });
+    if (fit.why_not.empty() && !is_gauge) fit.why_not = "its ridges are not a gauge apart";
+    if (!fit.why_not.empty()) {
+      if (guess.score > refused.score) refused = {guess.score, fit.why_not};
+      continue;
+    }
+    Describe(seen.local_from_sensor, fit.track);
+    const auto same = std::ranges::find_if(
+        fits, [&](const TrackFit& other) { return AreSame(other.track, fit.track); });
+    if (same == fits.end()) {
+      fits.push_back(std::move(fit));
+    } else if (fit.quality > same->quality) {
+      *same = std::move(fit);
+    }
+  }
+  std::vector<FoundTrack> tracks;
+  for (TrackFit& fit : fits) tracks.push_back(std::move(fit.track));
+  std::ranges::stable_sort(
+      tracks, {}, [](const FoundTrack& track) { return std::abs(track.sideways_m.value); });
+  return tracks;
+}
+
 }  // namespace
 
 FoundTracks FindTracks(const std::vector<Eigen::Vector3f>& points_m,
                        std::optional<double> gauge_m) {
-  FoundTracks found;
   const std::vector<Eigen::Matrix3d> axes = FindGroundAxes(points_m);
-  found.why_not = axes.empty() ? "no ground is seen" : "no pair of ridges stands out of the ground";
-  double best_score = 0.0;
+  if (axes.empty()) return {{}, "no ground is seen"};
+  BestRefused refused;
+  std::vector<SeenPoints> seen;
   for (const std::vector<double>& gauges_m : GaugesToTry(gauge_m)) {
-    std::vector<double> apart_m;
-    for (const double each_m : gauges_m) apart_m.push_back(each_m + kHeadWidth_m);
-    for (const Eigen::Matrix3d& local_from_sensor : axes) {
-      std::vector<Vector3> local_m;
-      std::vector<Eigen::Vector3f> float_m;
-      for (const Eigen::Vector3f& point_m : points_m) {
-        local_m.emplace_back(local_from_sensor * point_m.cast<double>());
-        float_m.emplace_back(local_m.back().cast<float>());
-      }
-      const std::vector<Vector3> raised_m = RaisedPoints(float_m);
-      std::vector<std::pair<FoundTrack, double>> fits;
-      for (const TrackGuess& guess : GuessTracks(raised_m, apart_m)) {
-        TrackFit fit = FitTrack(local_m, raised_m, guess);
-        const bool is_gauge = std::ranges::any_of(gauges_m, [&](double each_m) {
-          return std::abs(fit.track.gauge_m.value - each_m) < kMostGaugeError_m;
-        });
-        if (fit.why_not.empty() && !is_gauge) fit.why_not = "its ridges are not a gauge apart";
-        if (!fit.why_not.empty()) {
-          if (found.tracks.empty() && guess.score > best_score) {
-            best_score = guess.score;
-            found.why_not = "of the likeliest pair of ridges, " + fit.why_not;
-          }
-          continue;
-        }
-        Describe(local_from_sensor, fit.track);
-        const auto same = std::ranges::find_if(
-            fits, [&](const auto& other) { return AreSame(other.first, fit.track); });
-        if (same == fits.end()) {
-          fits.emplace_back(fit.track, fit.quality);
-        } else if (fit.quality > same->second) {
-          *same = {fit.track, fit.quality};
-        }
-      }
-      if (fits.empty()) continue;
-      for (auto& [track, quality] : fits) found.tracks.push_back(std::move(track));
-      std::ranges::stable_sort(found.tracks, {}, [](const FoundTrack& track) {
-        return std::abs(track.sideways_m.value);
-      });
-      found.why_not.clear();
-      return found;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      if (i == seen.size()) seen.push_back(SeenIn(axes[i], points_m));
+      auto tracks = TracksIn(seen[i], gauges_m, refused);
+      if (!tracks.empty()) return {std::move(tracks), ""};
     }
   }
-  return found;
+  return {{},
+          refused.why_not.empty() ? "no pair of ridges stands out of the ground"
+                                  : "of the likeliest pair of ridges, " + refused.why_not};
 }
 
 }  // namespace railcast
