@@ -149,6 +149,14 @@ void Composer::AddEmptyBeams(const RecordedFrame& recorded, Composition& composi
   composition.beam_kinds = BeamKinds(recorded);
 }
 
+const FoundTracks& Composer::TracksOf(const ShownFrame& shown) const {
+  if (tracks_of_ != shown.recorded) {
+    tracks_ = FindTracks(*shown.recorded, std::nullopt);
+    tracks_of_ = shown.recorded;
+  }
+  return tracks_;
+}
+
 std::string Composer::Missing(const ShownFrame& shown, const Choices& choices) const {
   const OverlayChoices& overlays = choices.overlays;
   const bool needs_world = overlays.gauge || overlays.mesh;
@@ -166,7 +174,7 @@ std::string Composer::Missing(const ShownFrame& shown, const Choices& choices) c
     return "gauge and surfaces need the scenario, which is not known";
   }
   if (overlays.track && !world_) {
-    const std::string why_not = FindTracks(*shown.recorded, std::nullopt).why_not;
+    const std::string& why_not = TracksOf(shown).why_not;
     if (!why_not.empty()) return "no track is found: " + why_not;
   }
   if ((needs_world || (overlays.track && world_)) && !shown.recorded->has_pose) {
@@ -196,7 +204,7 @@ void Composer::AddOverlays(const ShownFrame& shown,
     if (table) AddTo(DrawSensorFrustum(*table, range_m), composition.overlays);
   }
   if (choices.track && !world_)
-    AddTo(DrawFoundTracks(FindTracks(recorded, std::nullopt).tracks), composition.overlays);
+    AddTo(DrawFoundTracks(TracksOf(shown).tracks), composition.overlays);
   if (!world_ || !recorded.has_pose) return;
   if (choices.track) AddTo(DrawTrackAxis(world_->surroundings, recorded), composition.overlays);
   if (choices.mesh) world_->AddSurfaces(recorded, composition);

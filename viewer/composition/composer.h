@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/track/found_track.h"
 #include "railcast/transform.h"
 #include "viewer/color/palette.h"
 #include "viewer/composition/composition.h"
@@ -89,6 +90,12 @@ class Composer {
                    const OverlayChoices& choices,
                    Composition& composition);
 
+  /// The tracks that a frame itself shows; those of the last frame are kept, since to find them
+  /// takes a tenth of a second.
+  [[nodiscard]] const FoundTracks& TracksOf(const ShownFrame& shown) const;
+
+  mutable FoundTracks tracks_;
+  mutable std::shared_ptr<const RecordedFrame> tracks_of_;
   RecordingInfo info_;
   std::unique_ptr<World> world_;  ///< Null without a scenario.
 };
