@@ -52,6 +52,10 @@ struct FoundTrack {
     place_m.y() -= ArcRise_m(curvature_per_m.value, place_m.x());
     return place_m;
   }
+  /// Half the width of the 95 % interval of where the track is, across or above, so far along.
+  [[nodiscard]] double Margin_m(double x_m) const;
+  /// How far along, ahead and behind, it is known to a margin: up to 200 m.
+  [[nodiscard]] double KnownFor_m(double margin_m) const;
 };
 
 /// What a frame shows of tracks.

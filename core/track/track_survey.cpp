@@ -13,6 +13,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/io/recording/recorded_motion.h"
+#include "core/track/track_points.h"
 
 namespace railcast {
 namespace {
@@ -195,6 +196,7 @@ TrackSurvey SurveyTracks(Recording& recording,
   std::vector<const FoundTrack*> in_straight;
   std::vector<double> first_m;
   std::vector<double> last_m;
+  std::vector<double> known_m;
   for (std::size_t i = 0; i < survey.frames.size(); ++i) {
     AddWorld(poses[i], survey.frames[i]);
     const FoundTrack* track = survey.frames[i].track();
@@ -204,6 +206,7 @@ TrackSurvey SurveyTracks(Recording& recording,
     if (std::abs(track->curvature_per_m.value) < kStraight_per_m) in_straight.push_back(track);
     first_m.push_back(track->first_m);
     last_m.push_back(track->last_m);
+    known_m.push_back(track->KnownFor_m(kMostTrackMargin_m));
   }
   if (own.empty()) {
     throw InputError(place + "no frame shows a track: " + MostCommonReason(survey.frames));
@@ -213,6 +216,7 @@ TrackSurvey SurveyTracks(Recording& recording,
   survey.curvature_per_m = OverFrames(own, &FoundTrack::curvature_per_m);
   survey.first_m = MedianOf(first_m);
   survey.last_m = MedianOf(last_m);
+  survey.known_m = MedianOf(known_m);
   if (5 * in_straight.size() >= own.size()) {
     survey.num_in_straight = in_straight.size();
     own = in_straight;

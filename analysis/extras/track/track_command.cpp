@@ -7,6 +7,7 @@
 #include "analysis/extras/track/track_report.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
+#include "core/base/error.h"
 #include "core/base/parallelism.h"
 #include "core/base/text.h"
 #include "core/io/recording/source_choice.h"
@@ -19,18 +20,22 @@ namespace {
 
 constexpr const char* kMountFile = "mount.json";
 constexpr const char* kTwinFile = "twin.json";
+constexpr const char* kPointsFolder = "points";
 
 struct TrackOptions {
   std::filesystem::path source;
   SourceChoice choice;
   std::optional<double> gauge_mm;
   std::size_t num_frames = 100;
+  bool has_points = false;
   int num_threads = 0;
   ReportOutput output;
 };
 
 int RunTrack(const TrackOptions& options, const std::string& command_line) {
-  CheckReportFolder(options.output.out, {"track.json", kMountFile, kTwinFile});
+  CheckReportFolder(options.output.out, {"track.json", kMountFile, kTwinFile, kPointsFolder});
+  if (options.has_points && options.output.out.empty())
+    throw InputError("--points: needs --out, the folder to which it writes");
   const auto limit = LimitThreads(options.num_threads);
   const std::filesystem::path source = WithChoice({options.source}, options.choice).front();
   const auto recording = OpenRecording(source);
@@ -49,6 +54,15 @@ int RunTrack(const TrackOptions& options, const std::string& command_line) {
     if (!out.empty()) twin = TwinText(survey, source);
   } catch (const InputError& error) {
     report.facts.emplace_back("No twin.json", error.what());
+  }
+  if (options.has_points) {
+    const auto again = OpenRecording(source);
+    report.sections.push_back(
+        PlaceRecordedPoints(survey, *again, out / kPointsFolder, [&](std::size_t num) {
+          progress.Show("frames placed: " + NumberText(num) + " of " +
+                        NumberText(survey.frames.size()));
+        }));
+    progress.End();
   }
   if (!out.empty()) {
     create_directories(out);
@@ -76,6 +90,8 @@ void AddTrackCommand(ProgramOptions& app, ProgramCommand& command) {
   track.AddOption("--frames", options->num_frames, "Frames to look at, from the first on")
       .Check(Whole({1, 1'000'000}))
       .ShowDefault();
+  track.AddFlag("--points", options->has_points,
+                "Write where each point is on the track, and whether it is in the clear space");
   AddThreads(track, options->num_threads);
   AddReportOptions(track, options->output);
   track.WhenParsed([&command, options] {

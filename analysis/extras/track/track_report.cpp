@@ -6,6 +6,7 @@
 #include "analysis/report/words.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/track/track_points.h"
 
 namespace railcast {
 namespace {
@@ -122,7 +123,9 @@ Report MakeTrackReport(const TrackSurvey& survey, const std::string& command) {
        {"num_frames", NumberText(num_frames)},
        {"num_straight", survey.num_in_straight > 0 ? NumberText(survey.num_in_straight) : ""},
        {"first_m", ShortText(survey.first_m)},
-       {"last_m", ShortText(survey.last_m)}});
+       {"last_m", ShortText(survey.last_m)},
+       {"known_m", ShortText(survey.known_m)},
+       {"margin_m", ShortText(kMostTrackMargin_m)}});
   mount.tables = {FiguresTable(survey), OthersTable(survey)};
   if (num_frames > 1) {
     mount.charts = {FigureChart(survey, "height", &FoundTrack::height_m),

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "analysis/report/report.h"
@@ -15,6 +17,16 @@ extern const char* const kTrackWords;
 /// and the figures of every frame.
 /// @param command The command line.
 [[nodiscard]] Report MakeTrackReport(const TrackSurvey& survey, const std::string& command);
+
+/// Writes where the points of each frame with the own track are on it (PlacePoints()):
+/// `folder`/000012.npy, a structured NumPy array with a row for each slot.
+/// @param recording The one that was surveyed, opened once more.
+/// @param on_progress Gets the number of frames that were done.
+/// @return What is in the way in each of these frames.
+[[nodiscard]] Section PlaceRecordedPoints(const TrackSurvey& survey,
+                                          Recording& recording,
+                                          const std::filesystem::path& folder,
+                                          const std::function<void(std::size_t)>& on_progress);
 
 /// The mount of a recording's sensor as JSON, as scenarios and plans take it.
 [[nodiscard]] std::string MountText(const TrackSurvey& survey);

@@ -68,6 +68,25 @@ TEST(TrackCommand, WritesTheMountAndATwinThatRuns) {
               mount.at("position_m").at(2), 0.01);
 }
 
+TEST(TrackCommand, WritesWhereEachPointIsOnTheTrack) {
+  const TemporaryFolder folder;
+  const auto run = MakeRun(folder);
+  const auto out = run.parent_path() / "out";
+  const Ended track = Analyze("track " + run.string() + " --points --out " + out.string());
+  ASSERT_EQ(track.status, 0) << track.said;
+  // Another program's reader: all is on the ground beside the rails, or above it, and no obstacle.
+  const Ended read = RunCommand(
+      "/usr/bin/python3 -c \"import numpy, sys; a = numpy.load(sys.argv[1]); "
+      "near = a[numpy.abs(a['track_lateral_m']) < 3]; "
+      "print(len(a), len(near) > 1000, near['track_height_m'].min() > -1, "
+      "a['in_gauge'][a['track_height_m'] > 0.1].sum())\" " +
+      (out / "points/000003.npy").string());
+  EXPECT_EQ(read.said, "64000 True True 0\n");
+  EXPECT_THAT(ReadFileWhole(out / "csv/in_the_way.csv"), HasSubstr("points_in_clear_space"));
+  EXPECT_EQ(Analyze("track " + run.string() + " --points --format text").said,
+            "--points: needs --out, the folder to which it writes\n");
+}
+
 TEST(TrackCommand, SaysWhyThereIsNoTrack) {
   const TemporaryFolder folder;
   const auto run = MakeRun(folder);

@@ -1,0 +1,80 @@
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "analysis/extras/track/track_report.h"
+#include "analysis/report/words.h"
+#include "core/base/text.h"
+#include "core/io/run/camera_files.h"
+#include "core/io/run/sequence_files.h"
+#include "core/io/write_file.h"
+#include "core/track/track_points.h"
+
+namespace railcast {
+namespace {
+
+constexpr const char* kPointType =
+    "[('ahead_m', '<f4'), ('track_lateral_m', '<f4'), ('track_height_m', '<f4'), "
+    "('in_gauge', '|u1'), ('in_clear_space', '|u1')]";
+
+std::string NpyOf(const std::vector<PointByTrack>& places) {
+  std::string bytes = NpyHeader(kPointType, "(" + NumberText(places.size()) + ",)");
+  for (const PointByTrack& place : places) {
+    const std::array<float, 3> figures = {place.ahead_m, place.lateral_m, place.height_m};
+    bytes.append(reinterpret_cast<const char*>(figures.data()), sizeof figures);
+    bytes += place.is_in_gauge ? '\1' : '\0';
+    bytes += place.is_in_clear_space ? '\1' : '\0';
+  }
+  return bytes;
+}
+
+/// What is in the way in a frame. Noise puts points of the heads above them, so that lower ones do
+/// not count.
+struct InTheWay {
+  std::uint64_t num_in_clear_space{}, num_in_gauge{};
+  double nearest_m = std::numeric_limits<double>::quiet_NaN();
+
+  explicit InTheWay(const std::vector<PointByTrack>& places) {
+    constexpr float kLeastHeight_m = 0.1F;
+    for (const PointByTrack& place : places) {
+      if (!(place.height_m >= kLeastHeight_m)) continue;
+      num_in_clear_space += place.is_in_clear_space ? 1U : 0U;
+      if (!place.is_in_gauge) continue;
+      ++num_in_gauge;
+      const double ahead_m = place.ahead_m;
+      if (!(std::abs(ahead_m) >= std::abs(nearest_m))) nearest_m = ahead_m;
+    }
+  }
+};
+
+}  // namespace
+
+Section PlaceRecordedPoints(const TrackSurvey& survey,
+                            Recording& recording,
+                            const std::filesystem::path& folder,
+                            const std::function<void(std::size_t)>& on_progress) {
+  create_directories(folder);
+  Table table = TableOf(kTrackWords, "in_the_way");
+  for (std::size_t i = 0; i < survey.frames.size(); ++i) {
+    const std::filesystem::path file = folder / (FrameDigits(static_cast<std::uint32_t>(i)) + ".npy");
+    const auto reader = recording.Next();
+    const TracksOfFrame& of = survey.frames[i];
+    const FoundTrack* const track = of.track();
+    remove(file);  // An earlier run may have left one.
+    if (reader && track != nullptr) {
+      const auto places = PlacePoints((*reader)(), *track, of.cant_m);
+      WriteFileWhole(file, NpyOf(places));
+      const InTheWay way(places);
+      table.rows.push_back({std::uint64_t{i}, track->KnownFor_m(kMostTrackMargin_m),
+                            way.num_in_clear_space, way.num_in_gauge, way.nearest_m});
+    }
+    on_progress(i + 1);
+  }
+  Section section = SectionOf(kTrackWords, "points",
+                              {{"margin_m", ShortText(kMostTrackMargin_m)}});
+  section.tables = {std::move(table)};
+  return section;
+}
+
+}  // namespace railcast
