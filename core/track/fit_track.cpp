@@ -205,14 +205,18 @@ TrackFit FitTrack(const std::vector<Vector3>& points_m,
   };
   double reach_m = std::min(kFarthest_m, FirstReach_m(raised_m, laid));
   if (!LayPlane(raised_m, reach_m, laid)) return lacks("its ridges have too few points");
-  // What is near it.
+  // What is near it, and what of that is near its heads as far as they may yet move.
   std::vector<Vector3> corridor_m;
+  std::vector<Vector3> near_heads_m;
   for (const Vector3& point_m : points_m) {
     const Vector3 place_m = laid.Place_m(point_m);
     const double margin_m = 1.0 + 0.1 * std::abs(place_m.x());
     if (std::abs(place_m.x()) < kFarthest_m &&
         std::abs(place_m.y()) < 0.5 * laid.apart_m + margin_m && std::abs(place_m.z()) < margin_m) {
       corridor_m.push_back(point_m);
+      const double moved_m = 0.15 + 0.05 * std::abs(place_m.x());
+      if (std::abs(laid.Across_m(place_m)) < kBand_m + moved_m && std::abs(place_m.z()) < moved_m)
+        near_heads_m.push_back(point_m);
     }
   }
   ClusteredFit heights(HeightPrior(laid.curvature_per_m, false));
@@ -234,7 +238,7 @@ TrackFit FitTrack(const std::vector<Vector3>& points_m,
     std::vector<double> ranges_m;
     EdgePoints edges_m;
     const double sensor_m = laid.track_from_local.translation().y();
-    for (const Vector3& point_m : corridor_m) {
+    for (const Vector3& point_m : near_heads_m) {
       const Vector3 place_m = laid.Place_m(point_m);
       if (std::abs(place_m.x()) > reach_m || std::abs(place_m.z()) > kMostOff_m) continue;
       const double off_across_m = laid.Across_m(place_m);
