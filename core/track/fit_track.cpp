@@ -214,7 +214,7 @@ TrackFit FitTrack(const std::vector<Vector3>& points_m,
     if (std::abs(place_m.x()) < kFarthest_m &&
         std::abs(place_m.y()) < 0.5 * laid.apart_m + margin_m && std::abs(place_m.z()) < margin_m) {
       corridor_m.push_back(point_m);
-      const double moved_m = 0.15 + 0.05 * std::abs(place_m.x());
+      const double moved_m = 0.2 + 0.1 * std::abs(place_m.x());
       if (std::abs(laid.Across_m(place_m)) < kBand_m + moved_m && std::abs(place_m.z()) < moved_m)
         near_heads_m.push_back(point_m);
     }
