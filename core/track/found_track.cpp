@@ -10,8 +10,8 @@ double FoundTrack::Margin_m(double x_m) const {
   // by the sine of its cant, of up to 160 mm.
   const double bend_per_m = std::hypot(1.5e-4, 0.1 * curvature_per_m.value);
   const double half_square_m2 = 0.5 * x_m * x_m;
-  const double across_m = std::hypot(sideways_m.margin, yaw_rad.margin * x_m,
-                                     curvature_per_m.margin * half_square_m2);
+  const double across_m =
+      std::hypot(sideways_m.margin, yaw_rad.margin * x_m, curvature_per_m.margin * half_square_m2);
   const double up_m =
       std::hypot(height_m.margin, pitch_rad.margin * x_m, bend_per_m * half_square_m2);
   return std::max(across_m, up_m);

@@ -47,10 +47,10 @@ std::vector<PointByTrack> PlacePoints(const RecordedFrame& recorded,
     const auto is_in = [&](const GaugePart& part) {
       return aside_m < part.half_width_m && height_m > part.bottom_m && height_m < part.top_m;
     };
-    places[slot] = {static_cast<float>(place_m.x()), static_cast<float>(place_m.y()),
-                    static_cast<float>(height_m), std::ranges::any_of(outline, is_in),
-                    height_m > 0.0 &&
-                        aside_m < HalfWidthAt_m(clear[place_m.y() > 0.0 ? 0 : 1], height_m)};
+    places[slot] = {
+        static_cast<float>(place_m.x()), static_cast<float>(place_m.y()),
+        static_cast<float>(height_m), std::ranges::any_of(outline, is_in),
+        height_m > 0.0 && aside_m < HalfWidthAt_m(clear[place_m.y() > 0.0 ? 0 : 1], height_m)};
   }
   return places;
 }

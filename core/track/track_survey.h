@@ -47,7 +47,7 @@ struct TrackSurvey {
   std::vector<TracksOfFrame> frames;
   std::size_t num_own{};  ///< Frames that show the recording's own track.
   FigureOfFrames height_m, sideways_m, yaw_rad, pitch_rad, roll_rad, gauge_m, curvature_per_m;
-  double first_m{}, last_m{};     ///< From where to where along the track heads are seen: medians.
+  double first_m{}, last_m{};  ///< From where to where along the track heads are seen: medians.
   double known_m{};  ///< How far along the track is known to kMostTrackMargin_m: the median.
   std::size_t num_in_straight{};  ///< Frames that the mount is of, unless it is 0.
 

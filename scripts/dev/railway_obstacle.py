@@ -156,10 +156,23 @@ def prepare(folder, turn, obstacle):
 
 
 def evaluate(build, run):
-    """What the reference detector finds in a run of one frame, as the report's JSON."""
-    text = railway_simulate.run([build / "analysis/railcast-analyze", "evaluate", run, "--format", "json", "--frames", "1/1",
-                                 "--min-distance-m", "0", "--speed-kmph", "10"])
-    return json.loads(text)
+    """What the reference detector finds in a run of one frame, and what `detect` says of it, as the reports' JSON."""
+    reports = []
+    for command, options in (("evaluate", ["--min-distance-m", "0"]), ("detect", [])):
+        text = railway_simulate.run([build / "analysis/railcast-analyze", command, run, "--format", "json", "--frames", "1/1",
+                                     "--speed-kmph", "10", *options])
+        reports.append(json.loads(text))
+    return reports
+
+
+def places_by_track(build, folder, obstacle):
+    """The obstacle's points as `railcast-analyze track --points` places them in the frame that it is in."""
+    out = folder / "track"
+    railway_simulate.run([build / "analysis/railcast-analyze", "track", folder / "real.pcd", "--points", "--out", out])
+    seen = np.isfinite(obstacle.real)
+    # As write_cloud() orders them.
+    on_thing = obstacle.firings[:, ::-1].T[seen[:, ::-1].T]
+    return np.load(out / "points/000000.npy")[on_thing]
 
 
 def median_over_rings(values, ring, rng):

@@ -33,10 +33,20 @@ def place_rows(case):
     # A point that is not on the thing's own top is at its side: both heads are as high as zero.
     reach = np.percentile(thing, (1, 99), axis=0)
     inside = in_clear_space(thing)
-    return [[case.name, case.free_name, f"{len(thing):,}", size, f"{obstacle.heading_deg:.0f}",
-             f"{obstacle.centre_m[0]:+.2f}, {obstacle.centre_m[1]:+.2f}", f"{reach[0, 1]:+.2f} to {reach[1, 1]:+.2f}",
-             f"{reach[0, 2]:+.2f} to {reach[1, 2]:+.2f}", f"{100 * np.mean(inside):.0f} %",
+    rows = [[case.name, case.free_name, f"{len(thing):,}", size, f"{obstacle.heading_deg:.0f}",
+             f"{obstacle.centre_m[0]:+.2f}, {obstacle.centre_m[1]:+.2f}", *reaches(reach, inside),
              "{:.1f} to {:.1f}".format(*np.percentile(obstacle.real[obstacle.firings], (1, 99)))]]
+    if isinstance(case.places, str):
+        return rows + [["", f"by `track`: {case.places}"] + ["–"] * (len(PLACE_HEAD) - 2)]
+    places = case.places[np.isfinite(case.places["ahead_m"])]
+    found = np.stack([places[field] for field in ("ahead_m", "track_lateral_m", "track_height_m")], axis=1)
+    middle = railway_obstacle.rectangle(found[:, :2])[0]
+    return rows + [["", "by `track`", f"{len(found):,}", "–", "–", f"{middle[0]:+.2f}, {middle[1]:+.2f}",
+                    *reaches(np.percentile(found, (1, 99), axis=0), places["in_clear_space"]), "–"]]
+
+
+def reaches(reach, inside):
+    return [f"{reach[0, 1]:+.2f} to {reach[1, 1]:+.2f}", f"{reach[0, 2]:+.2f} to {reach[1, 2]:+.2f}", f"{100 * np.mean(inside):.0f} %"]
 
 
 PLACE_HEAD = ("frame", "beside the free", "firings on it", "length × width × height over the bed, m", "heading, °",
@@ -44,7 +54,7 @@ PLACE_HEAD = ("frame", "beside the free", "firings on it", "length × width × h
 CHANGE_HEAD = ("frame", "", "firings nearer by 0.1 m", "intersection over union", "range on common firings, simulated − real, mm",
                "5 to 95 % of it, mm", "noise on it, mm", "between thing and bed, of those at the rim", "shadow behind it, m",
                "lost", "other firings changed")
-DETECT_HEAD = ("frame", "cloud", "boxes", "in the vehicle's outline", "counted as the obstacle's")
+DETECT_HEAD = ("frame", "cloud", "boxes", "in the vehicle's outline", "counted as the obstacle's", "`detect`")
 
 
 def change_rows(case):
@@ -73,14 +83,21 @@ def box_row(report):
     return row["read"], row["in_gauge"], row["matched"]
 
 
+def verdict(report):
+    tables = [each for section in report["sections"] for each in section["tables"] if each["key"] == "verdicts"]
+    return tables[0]["rows"][0]["verdict"]
+
+
 def detect_rows(case):
     rows = []
     for title, report in case.reports.items():
         if isinstance(report, str):
-            rows.append(["" if rows else case.name, title, report, "–", "–"])
+            rows.append(["" if rows else case.name, title, report, "–", "–", "–"])
             continue
-        read, inside, matched = box_row(report)
-        rows.append(["" if rows else case.name, title, str(read), str(inside), "–" if title in ("real", "free") else str(matched)])
+        read, inside, matched = box_row(report[0])
+        is_inserted = title not in ("real", "free")
+        rows.append(["" if rows else case.name, title, str(read), str(inside), str(matched) if is_inserted else "–",
+                     verdict(report[1]) if is_inserted else "–"])
     return rows
 
 
@@ -89,10 +106,14 @@ class Case:
 
     def __init__(self, name, free_name, turn, obstacle):
         self.name, self.free_name, self.turn, self.obstacle = name, free_name, turn, obstacle
-        self.inserted, self.reports = {}, {}
+        self.inserted, self.reports, self.places = {}, {}, "not run"
 
     def simulate(self, build, folder):
         railway_obstacle.prepare(folder, self.turn, self.obstacle)
+        try:
+            self.places = railway_obstacle.places_by_track(build, folder, self.obstacle)
+        except ProgramError as error:
+            self.places = str(error)
         for cloud in ("free", "real"):
             try:
                 run, _ = railway_obstacle.insert(build, folder, self.turn, self.obstacle, "footprint", "box", cloud, is_far=True)

@@ -29,6 +29,17 @@ std::string NpyOf(const std::vector<PointByTrack>& places) {
   return bytes;
 }
 
+/// The places of a file's points in its own order; those of a capture by slots.
+std::vector<PointByTrack> InOrderOfFile(const std::vector<PointByTrack>& places,
+                                        const std::vector<std::uint32_t>& slot_of_entry) {
+  if (slot_of_entry.empty()) return places;
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  std::vector<PointByTrack> ordered;
+  for (const std::uint32_t slot : slot_of_entry)
+    ordered.push_back(slot == kNoSlot ? PointByTrack{kNone, kNone, kNone} : places[slot]);
+  return ordered;
+}
+
 /// What is in the way in a frame. Noise puts points of the heads above them, so that lower ones do
 /// not count.
 struct InTheWay {
@@ -57,22 +68,23 @@ Section PlaceRecordedPoints(const TrackSurvey& survey,
   create_directories(folder);
   Table table = TableOf(kTrackWords, "in_the_way");
   for (std::size_t i = 0; i < survey.frames.size(); ++i) {
-    const std::filesystem::path file = folder / (FrameDigits(static_cast<std::uint32_t>(i)) + ".npy");
+    const std::filesystem::path file =
+        folder / (FrameDigits(static_cast<std::uint32_t>(i)) + ".npy");
     const auto reader = recording.Next();
     const TracksOfFrame& of = survey.frames[i];
     const FoundTrack* const track = of.track();
     remove(file);  // An earlier run may have left one.
     if (reader && track != nullptr) {
-      const auto places = PlacePoints((*reader)(), *track, of.cant_m);
-      WriteFileWhole(file, NpyOf(places));
+      const RecordedFrame recorded = (*reader)();
+      const auto places = PlacePoints(recorded, *track, of.cant_m);
+      WriteFileWhole(file, NpyOf(InOrderOfFile(places, recorded.slot_of_entry)));
       const InTheWay way(places);
       table.rows.push_back({std::uint64_t{i}, track->KnownFor_m(kMostTrackMargin_m),
                             way.num_in_clear_space, way.num_in_gauge, way.nearest_m});
     }
     on_progress(i + 1);
   }
-  Section section = SectionOf(kTrackWords, "points",
-                              {{"margin_m", ShortText(kMostTrackMargin_m)}});
+  Section section = SectionOf(kTrackWords, "points", {{"margin_m", ShortText(kMostTrackMargin_m)}});
   section.tables = {std::move(table)};
   return section;
 }

@@ -19,7 +19,8 @@ extern const char* const kTrackWords;
 [[nodiscard]] Report MakeTrackReport(const TrackSurvey& survey, const std::string& command);
 
 /// Writes where the points of each frame with the own track are on it (PlacePoints()):
-/// `folder`/000012.npy, a structured NumPy array with a row for each slot.
+/// `folder`/000012.npy, a structured NumPy array with a row for each point of
+/// the file in its order, or for each slot of a capture.
 /// @param recording The one that was surveyed, opened once more.
 /// @param on_progress Gets the number of frames that were done.
 /// @return What is in the way in each of these frames.
