@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "core/io/write_file.h"
 #include "tests/analysis/analyze_program.h"
@@ -13,11 +14,11 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A sequence whose sensor is 2.5 m above the rails and 0.2 m left of the middle, on a track with a
+/// A scenario whose sensor is 2.5 m above the rails and 0.2 m left of the middle, on a track with a
 /// second one at 4.5 m.
-std::filesystem::path MakeRun(const TemporaryFolder& folder) {
+std::filesystem::path WriteLine(const TemporaryFolder& folder) {
   const std::string scenarios = ScenariosDir().string();
-  const auto scenario = folder.Write("scenario.json", R"({
+  return folder.Write("scenario.json", R"({
     "version": 1,
     "fidelity": "footprint",
     "lidar": {"file": ")" + scenarios + R"(/sensors/xt32.json",
@@ -31,6 +32,10 @@ std::filesystem::path MakeRun(const TemporaryFolder& folder) {
     "vehicle": {"start_s_m": 400, "motion": {"profile": [{"time_s": 0, "speed_mps": 10}]}},
     "materials": "railcast:railway.json",
     "labels": "railcast:labels.json"})");
+}
+
+std::filesystem::path MakeRun(const TemporaryFolder& folder) {
+  const auto scenario = WriteLine(folder);
   auto out = scenario.parent_path() / "run";
   GenerateOnce("sequence " + scenario.string() + " --frames 4", out);
   return out;
@@ -66,6 +71,31 @@ TEST(TrackCommand, WritesTheMountAndATwinThatRuns) {
       0);
   EXPECT_NEAR(JsonIn(run.parent_path() / "b/mount.json").at("position_m").at(2),
               mount.at("position_m").at(2), 0.01);
+}
+
+// As a sensor's user has recordings: packets without poses, and clouds in a bag.
+TEST(TrackCommand, FindsTheTrackInCapturesAndBags) {
+  const TemporaryFolder folder;
+  const auto scenario = WriteLine(folder);
+  const auto capture = scenario.parent_path() / "drive.pcap";
+  const auto bag = scenario.parent_path() / "bag";
+  for (const std::string& made : std::vector<std::string>{
+           " stream " + scenario.string() + " --protocol xt32 --duration 0.3 --pcap " +
+               capture.string(),
+           " sequence " + scenario.string() + " --format mcap --frames 3 --out " + bag.string()}) {
+    const Ended run = RunCommand(RAILCAST_GENERATE + made);
+    ASSERT_EQ(run.status, 0) << run.said;
+  }
+  for (const auto& recording : {capture, bag}) {
+    const auto out = scenario.parent_path() / "out";
+    const Ended track = Analyze("track " + recording.string() + " --points --out " + out.string());
+    ASSERT_EQ(track.status, 0) << track.said;
+    const auto mount = JsonIn(out / "mount.json");
+    EXPECT_NEAR(mount.at("position_m").at(1), 0.2, 0.015) << recording;
+    EXPECT_NEAR(mount.at("position_m").at(2), 2.5, 0.01) << recording;
+    EXPECT_NEAR(mount.at("pitch_deg"), 10.0, 0.1) << recording;
+    EXPECT_TRUE(std::filesystem::exists(out / "points/000001.npy")) << recording;
+  }
 }
 
 TEST(TrackCommand, WritesWhereEachPointIsOnTheTrack) {
