@@ -131,6 +131,12 @@ void Describe(Archive& a, BallastSpec& s) {
   a.Optional("below_sleepers_m", s.below_sleepers_m,
              "How much lower its top is than the sleepers' tops; below 0, it covers them.",
              Within(-0.1, 0.2));
+  a.Optional("outside_below_sleepers_m", s.outside_below_sleepers_m,
+             "The same outside the rails; absent = as between them.", Within(-0.1, 0.2));
+  a.Optional("shoulder_m", s.shoulder_m,
+             "How far its top extends beyond the sleepers' ends; a wide one fills the space "
+             "between tracks.",
+             Within(0, 2));
   a.Optional("grain_sigma_m", s.grain_sigma_m, "Standard deviation of the heights of its stones.",
              Within(0, 0.1));
 }

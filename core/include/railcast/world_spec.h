@@ -172,7 +172,10 @@ inline constexpr auto kEnumNames<SceneDetail> = std::to_array<EnumName<SceneDeta
 /// The ballast of all tracks.
 struct BallastSpec {
   double below_sleepers_m = 0.020;  ///< Its top is so much lower than the sleepers' tops.
-  double grain_sigma_m = 0.020;     ///< Standard deviation of the heights of its stones.
+  /// The same outside the rails; absent = as between them.
+  std::optional<double> outside_below_sleepers_m{};
+  double shoulder_m = 0.45;      ///< Its top extends so far beyond the sleepers' ends.
+  double grain_sigma_m = 0.020;  ///< Standard deviation of the heights of its stones.
 
   bool operator==(const BallastSpec&) const = default;
 };

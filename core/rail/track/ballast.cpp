@@ -64,7 +64,7 @@ std::pair<double, double> OffsetsIn(const ChunkContext& context) {
 Columns ColumnsOf(const ChunkContext& context) {
   // Covers shoulder and slope down to below the ground, with cant. Anything deeper is dropped
   // anyway.
-  const double reach_m = CrossSection::kShoulder_m + RailShift_m(context.spec.alignment) + 2.0;
+  const double reach_m = ShoulderOf_m(context.spec) + 2.0;
   const auto [least_m, most_m] = OffsetsIn(context);
   if (!(least_m <= most_m)) return {};
   return {.first = static_cast<std::int64_t>(std::floor((least_m - reach_m) / kGridAcross_m)),

@@ -18,6 +18,13 @@ constexpr double kBallastSlope = 1.0 / 1.5;
 constexpr double kSleeperHollow_m = 0.020;
 constexpr double kSleeperHollowReach_m = 0.2;
 
+/// Where the hollow beyond a sleeper's end has faded out.
+constexpr double kHollowEnd_m = kSleeperHalfLength_m + 0.45;
+
+/// The rails of standard gauge, and where the ballast has its height outside them.
+constexpr double kRailMiddle_m = 0.75;
+constexpr double kOutsideBegin_m = 0.90;
+
 /// Between the rails, the ballast follows the lower middle part of a concrete sleeper.
 constexpr double kMiddleEnd_m = 0.45;
 constexpr double kSeatBegin_m = 0.60;
@@ -70,10 +77,16 @@ SleeperSeat SeatOf(SleeperType sleeper) {
   return {.top_m = -0.190, .middle_drop_m = 0.0};
 }
 
+double ShoulderOf_m(const WorldSpec& spec) {
+  return kSleeperHalfLength_m + spec.ballast.shoulder_m + RailShift_m(spec.alignment);
+}
+
 CrossSection::CrossSection(const ChunkContext& context, double s_m)
     : s_m_(s_m),
       shift_m_(RailShift_m(context.spec.alignment)),
+      shoulder_m_(ShoulderOf_m(context.spec)),
       below_sleepers_m_(context.spec.ballast.below_sleepers_m),
+      outside_below_m_(context.spec.ballast.outside_below_sleepers_m.value_or(below_sleepers_m_)),
       sleeper_closeness_(ClosenessToASleeper(s_m)) {
   Check(!context.spec.tracks.empty(), "a line has a track");
   const AxisPoint axis = context.alignment.At(s_m);
@@ -122,7 +135,7 @@ double CrossSection::BallastHeight_m(double d_m) const {
   double height_m = -std::numeric_limits<double>::infinity();
   for (const std::size_t index : ballasted_) {
     const TrackHere& track = tracks_[index];
-    if (std::abs(d_m - track.d_m) - (kShoulder_m + shift_m_) < kBallastReach_m) {
+    if (std::abs(d_m - track.d_m) - shoulder_m_ < kBallastReach_m) {
       height_m = std::max(height_m, BallastHeightOf(track, d_m));
     }
   }
@@ -143,17 +156,19 @@ double CrossSection::BallastHeightOf(const TrackHere& track, double d_m) const {
     sleeper_closeness = ClosenessToASleeper(foot_s_m);
     lateral_m *= std::cos(track.turn_rad);
   }
-  const double shoulder_m = kShoulder_m + shift_m_;
-  const double on_top_m = std::clamp(lateral_m, -shoulder_m, shoulder_m);
+  const double on_top_m = std::clamp(lateral_m, -shoulder_m_, shoulder_m_);
   // Where it would be on standard gauge, but for the middle of the sleeper.
   const double on_standard_m = std::abs(on_top_m) - shift_m_;
   const double beyond_m = std::max(std::abs(lateral_m - on_top_m), BeyondEnd_m(track, foot_s_m));
   const double seat_fraction =
       std::clamp((on_standard_m - kMiddleEnd_m) / (kSeatBegin_m - kMiddleEnd_m), 0.0, 1.0);
   const double sleeper_fraction =
-      std::clamp((kShoulder_m - on_standard_m) / (kShoulder_m - kSleeperHalfLength_m), 0.0, 1.0);
+      std::clamp((kHollowEnd_m - on_standard_m) / (kHollowEnd_m - kSleeperHalfLength_m), 0.0, 1.0);
+  const double outside_fraction =
+      std::clamp((on_standard_m - kRailMiddle_m) / (kOutsideBegin_m - kRailMiddle_m), 0.0, 1.0);
   const double top_m = track.seat.top_m - (1.0 - seat_fraction) * track.seat.middle_drop_m -
-                       below_sleepers_m_ - sleeper_fraction * sleeper_closeness * kSleeperHollow_m;
+                       std::lerp(below_sleepers_m_, outside_below_m_, outside_fraction) -
+                       sleeper_fraction * sleeper_closeness * kSleeperHollow_m;
   return track.height_m + top_m * std::cos(track.cant_rad) + on_top_m * std::sin(track.cant_rad) -
          beyond_m * kBallastSlope;
 }

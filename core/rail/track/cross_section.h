@@ -23,21 +23,22 @@ struct SleeperSeat {
 
 [[nodiscard]] SleeperSeat SeatOf(SleeperType sleeper);
 
+/// Distance from a track's axis at which its ballast begins to fall.
+[[nodiscard]] double ShoulderOf_m(const WorldSpec& spec);
+
 /// Cross-section of the line at one chainage: smooth heights of formation and ballast, without
 /// grain or roughness. Lateral positions `d_m` are horizontal, left of the axis; heights are
 /// vertical, relative to the axis' top of rail.
 ///
 /// Ballast (docs/physics.md 7.1): its top is 20 mm below the sleeper's top and parallel to it,
 /// extends 0.45 m beyond the sleeper's end and then falls at 1:1.5; BallastSpec has it higher or
-/// lower. Where the ballast of several tracks overlaps, the highest counts. Around a sleeper, the
-/// top is another 20 mm lower, so that grains do not cover the sleeper.
+/// lower, outside the rails too, and the shoulder wider or narrower. Where the ballast of several
+/// tracks overlaps, the highest counts. Around a sleeper, the top is another 20 mm lower, so that
+/// grains do not cover the sleeper.
 class CrossSection {
  public:
   /// Below the axis' top of rail; gives 0.30 m of ballast under a concrete sleeper.
   static constexpr double kFormationDepth_m = 0.70;
-  /// Distance from a track's axis at which its ballast begins to fall, on standard gauge.
-  static constexpr double kShoulder_m = kSleeperHalfLength_m + 0.45;
-
   CrossSection(const ChunkContext& context, double s_m);
 
   /// Level beside the tracks, and interpolated linearly between neighbouring tracks.
@@ -87,7 +88,9 @@ class CrossSection {
   Transform chunk_from_axis_;  ///< Level: x along the heading, y left, z up.
   double s_m_;
   double shift_m_;                 ///< Shift of rails, sleepers' ends and shoulders (RailShift_m).
+  double shoulder_m_;              ///< From a track's axis to where its ballast begins to fall.
   double below_sleepers_m_;        ///< How much lower the ballast's top is than the sleepers'.
+  double outside_below_m_;         ///< The same outside the rails.
   double sleeper_closeness_;       ///< For tracks parallel to the alignment.
   std::vector<TrackHere> tracks_;  ///< From right to left.
   std::vector<std::size_t> ballasted_;  ///< Tracks that have ballast.

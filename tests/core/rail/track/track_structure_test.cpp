@@ -215,6 +215,23 @@ TEST(AddBallast, LiesAndSpreadsAsTheWorldSays) {
   EXPECT_NEAR(heights.sigma_m, 0.008, five_errors_m / std::sqrt(2.0));
 }
 
+TEST(AddBallast, LiesOutsideTheRailsAndFillsBesideThemAsTheWorldSays) {
+  WorldSpec spec = StraightLine(300.0);
+  spec.ballast = {.outside_below_sleepers_m = -0.030, .shoulder_m = 1.2, .grain_sigma_m = 0.0};
+  const TestLine line(spec);
+  const auto mean_m = [&](double least_m, double most_m) {
+    return HeightsWhere(line,
+                        [=](double s_m, double d_m) {
+                          return DistanceToASleeper(s_m) > 0.19 && std::abs(d_m) > least_m &&
+                                 std::abs(d_m) < most_m;
+                        })
+        .mean_m;
+  };
+  const double sleeper_m = SeatOf(SleeperType::kConcrete).top_m;
+  EXPECT_NEAR(mean_m(0.62, 0.74), sleeper_m - 0.020, 1e-4);
+  EXPECT_NEAR(mean_m(0.92, 2.4), sleeper_m + 0.030, 1e-4);  // The shoulder ends at 2.5 m.
+}
+
 TEST(AddBallast, LeavesSleepersUncovered) {
   const TestLine line(StraightLine(300.0));
   const Heights heights = HeightsWhere(line, [](double s_m, double d_m) {
