@@ -78,11 +78,9 @@ ClusteredFit::Row HeightRow(const Vector3& place_m) {
           place_m.x() * place_m.y()};
 }
 
-/// Vertical curves have radii from 3 km. A canted curve leaves the plane that touches it: it bends
-/// in plan, not in that plane, by the sine of a cant of up to 160 mm.
 /// @param has_twist Whether the cant may change: by 1 in 400 of the gauge, as in steep ramps.
 ClusteredFit::Row HeightPrior(double curvature_per_m, bool has_twist) {
-  return {1.0, 0.1, 0.1, std::hypot(1.5e-4, 0.1 * curvature_per_m), has_twist ? 2.5e-3 : kNone};
+  return {1.0, 0.1, 0.1, BendSigma_per_m(curvature_per_m), has_twist ? 2.5e-3 : kNone};
 }
 const ClusteredFit::Row kSidePrior{0.5, 0.1, 3e-3, 0.05, kNone};
 

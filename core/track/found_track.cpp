@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/track/track_search.h"
+
 namespace railcast {
 
+double BendSigma_per_m(double curvature_per_m) {
+  return std::hypot(1.5e-4, 0.1 * curvature_per_m);
+}
+
 double FoundTrack::Margin_m(double x_m) const {
-  // Vertical curves have radii from 3 km, and a canted curve bends out of the plane that touches it
-  // by the sine of its cant, of up to 160 mm.
-  const double bend_per_m = std::hypot(1.5e-4, 0.1 * curvature_per_m.value);
+  const double bend_per_m = 1.96 * BendSigma_per_m(curvature_per_m.value);
   const double half_square_m2 = 0.5 * x_m * x_m;
   const double across_m =
       std::hypot(sideways_m.margin, yaw_rad.margin * x_m, curvature_per_m.margin * half_square_m2);

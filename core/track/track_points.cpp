@@ -1,9 +1,7 @@
 #include "core/track/track_points.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "core/io/recording/recorded_motion.h"
 #include "core/rail/clearance/clear_space.h"
@@ -29,7 +27,6 @@ double HalfWidthAt_m(const std::vector<HalfWidth>& rows, double height_m) {
 std::vector<PointByTrack> PlacePoints(const RecordedFrame& recorded,
                                       const FoundTrack& track,
                                       double cant_m) {
-  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
   const RecordedMotion motion(recorded, Compensation::kSensor);
   const std::vector<GaugePart> outline = VehicleOutline(std::nullopt);
   const std::vector<HalfWidth> rows(kClearHalfWidths.begin(), kClearHalfWidths.end());
@@ -37,20 +34,17 @@ std::vector<PointByTrack> PlacePoints(const RecordedFrame& recorded,
   const std::array<std::vector<HalfWidth>, 2> clear = {ClearSpace(rows, std::nullopt, bend, 1.0),
                                                        ClearSpace(rows, std::nullopt, bend, -1.0)};
   const double known_m = track.KnownFor_m(kMostTrackMargin_m);
-  std::vector<PointByTrack> places(recorded.frame.num_slots(), {kNone, kNone, kNone});
+  std::vector<PointByTrack> places(recorded.frame.num_slots());
   for (std::size_t slot = 0; slot < places.size(); ++slot) {
     if (!std::isfinite(recorded.frame.x[slot])) continue;
     const Vector3 place_m = track.Place_m(motion.PointOf(slot).cast<double>());
     if (!(std::abs(place_m.x()) <= known_m)) continue;
-    const double aside_m = std::abs(place_m.y());
+    const double lateral_m = place_m.y();
     const double height_m = place_m.z();
-    const auto is_in = [&](const GaugePart& part) {
-      return aside_m < part.half_width_m && height_m > part.bottom_m && height_m < part.top_m;
-    };
-    places[slot] = {
-        static_cast<float>(place_m.x()), static_cast<float>(place_m.y()),
-        static_cast<float>(height_m), std::ranges::any_of(outline, is_in),
-        height_m > 0.0 && aside_m < HalfWidthAt_m(clear[place_m.y() > 0.0 ? 0 : 1], height_m)};
+    const double clear_m = HalfWidthAt_m(clear[lateral_m > 0.0 ? 0 : 1], height_m);
+    places[slot] = {static_cast<float>(place_m.x()), static_cast<float>(lateral_m),
+                    static_cast<float>(height_m), IsInside(outline, lateral_m, height_m),
+                    height_m > 0.0 && std::abs(lateral_m) < clear_m};
   }
   return places;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "core/track/found_track.h"
@@ -10,9 +11,11 @@ namespace railcast {
 /// Where a point is by a found track. All are NaN and false without a point, and where the track is
 /// not known to kMostTrackMargin_m.
 struct PointByTrack {
-  float ahead_m{};           ///< Along the track, from beside the sensor.
-  float lateral_m{};         ///< From the track's middle, left positive.
-  float height_m{};          ///< Above the plane of the heads, square to it.
+  static constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+
+  float ahead_m = kNone;     ///< Along the track, from beside the sensor.
+  float lateral_m = kNone;   ///< From the track's middle, left positive.
+  float height_m = kNone;    ///< Above the plane of the heads, square to it.
   bool is_in_gauge{};        ///< Inside VehicleOutline().
   bool is_in_clear_space{};  ///< Inside ClearSpace() of the regulation, without a contact line.
 };

@@ -72,6 +72,11 @@ class ClusteredFit {
   std::vector<Sample> rows_;
 };
 
+/// Standard deviation of a track's vertical curvature. Vertical curves have radii from 3 km. A
+/// canted curve leaves the plane that touches it: it bends in plan, not in that plane, by the sine
+/// of a cant of up to 160 mm.
+[[nodiscard]] double BendSigma_per_m(double curvature_per_m);
+
 /// A track that was laid on the points, in axes with z up and the sensor at 0.
 struct TrackFit {
   FoundTrack track{};

@@ -1,6 +1,5 @@
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "analysis/extras/track/track_report.h"
@@ -33,10 +32,9 @@ std::string NpyOf(const std::vector<PointByTrack>& places) {
 std::vector<PointByTrack> InOrderOfFile(const std::vector<PointByTrack>& places,
                                         const std::vector<std::uint32_t>& slot_of_entry) {
   if (slot_of_entry.empty()) return places;
-  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
   std::vector<PointByTrack> ordered;
   for (const std::uint32_t slot : slot_of_entry)
-    ordered.push_back(slot == kNoSlot ? PointByTrack{kNone, kNone, kNone} : places[slot]);
+    ordered.push_back(slot == kNoSlot ? PointByTrack{} : places[slot]);
   return ordered;
 }
 
@@ -59,7 +57,16 @@ struct InTheWay {
   }
 };
 
+std::filesystem::path FileOf(const std::filesystem::path& folder, std::size_t frame) {
+  return folder / (FrameDigits(static_cast<std::uint32_t>(frame)) + ".npy");
+}
+
 }  // namespace
+
+void RemovePlacedPoints(const std::filesystem::path& folder, std::size_t first) {
+  for (std::size_t i = first; remove(FileOf(folder, i)); ++i) {
+  }
+}
 
 Section PlaceRecordedPoints(const TrackSurvey& survey,
                             Recording& recording,
@@ -68,20 +75,19 @@ Section PlaceRecordedPoints(const TrackSurvey& survey,
   create_directories(folder);
   Table table = TableOf(kTrackWords, "in_the_way");
   for (std::size_t i = 0; i < survey.frames.size(); ++i) {
-    const std::filesystem::path file =
-        folder / (FrameDigits(static_cast<std::uint32_t>(i)) + ".npy");
     const auto reader = recording.Next();
+    if (!reader) break;  // Files were taken away meanwhile.
+    const RecordedFrame recorded = (*reader)();
     const TracksOfFrame& of = survey.frames[i];
     const FoundTrack* const track = of.track();
-    remove(file);  // An earlier run may have left one.
-    if (reader && track != nullptr) {
-      const RecordedFrame recorded = (*reader)();
-      const auto places = PlacePoints(recorded, *track, of.cant_m);
-      WriteFileWhole(file, NpyOf(InOrderOfFile(places, recorded.slot_of_entry)));
+    std::vector<PointByTrack> places(recorded.frame.num_slots());
+    if (track != nullptr) {
+      places = PlacePoints(recorded, *track, of.cant_m);
       const InTheWay way(places);
       table.rows.push_back({std::uint64_t{i}, track->KnownFor_m(kMostTrackMargin_m),
                             way.num_in_clear_space, way.num_in_gauge, way.nearest_m});
     }
+    WriteFileWhole(FileOf(folder, i), NpyOf(InOrderOfFile(places, recorded.slot_of_entry)));
     on_progress(i + 1);
   }
   Section section = SectionOf(kTrackWords, "points", {{"margin_m", ShortText(kMostTrackMargin_m)}});

@@ -55,6 +55,10 @@ int RunTrack(const TrackOptions& options, const std::string& command_line) {
   } catch (const InputError& error) {
     report.facts.emplace_back("No twin.json", error.what());
   }
+  if (!out.empty()) {
+    // An earlier run may have been given another recording.
+    RemovePlacedPoints(out / kPointsFolder, options.has_points ? survey.frames.size() : 0);
+  }
   if (options.has_points) {
     const auto again = OpenRecording(source);
     report.sections.push_back(

@@ -66,6 +66,13 @@ std::optional<double> ContactHeightOver_m(const TrackSpec& track, const Catenary
   return catenary.contact_height_m;
 }
 
+bool IsInside(const std::vector<GaugePart>& outline, double lateral_m, double height_m) {
+  return std::ranges::any_of(outline, [&](const GaugePart& part) {
+    return std::abs(lateral_m) < part.half_width_m && height_m > part.bottom_m &&
+           height_m < part.top_m;
+  });
+}
+
 GaugeClearance ClearanceOf(const std::vector<GaugePart>& gauge,
                            const Transform& track_from_box,
                            const Vector3& size_m) {

@@ -39,6 +39,11 @@ struct GaugePart {
 /// @param contact_height_m Absent = no contact line.
 [[nodiscard]] std::vector<GaugePart> VehicleOutline(std::optional<double> contact_height_m);
 
+/// Whether a place in the track's cross-section is inside an outline; its boundary is not.
+[[nodiscard]] bool IsInside(const std::vector<GaugePart>& outline,
+                            double lateral_m,
+                            double height_m);
+
 /// Height of the contact wire above a track; absent if it has none.
 [[nodiscard]] std::optional<double> ContactHeightOver_m(const TrackSpec& track,
                                                         const CatenarySpec& catenary);

@@ -105,10 +105,7 @@ std::optional<PlaceByTrack> OwnTrack::PlaceOf(const Vector3& world_m, double nea
 }
 
 bool OwnTrack::IsInGauge(const PlaceByTrack& place) const {
-  return std::ranges::any_of(gauge_, [&](const GaugePart& part) {
-    return std::abs(place.lateral_m) < part.half_width_m && place.height_m > part.bottom_m &&
-           place.height_m < part.top_m;
-  });
+  return IsInside(gauge_, place.lateral_m, place.height_m);
 }
 
 double OwnTrack::ChainageNear_m(const Vector3& world_m) const {

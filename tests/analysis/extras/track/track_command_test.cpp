@@ -113,6 +113,13 @@ TEST(TrackCommand, WritesWhereEachPointIsOnTheTrack) {
       (out / "points/000003.npy").string());
   EXPECT_EQ(read.said, "64000 True True 0\n");
   EXPECT_THAT(ReadFileWhole(out / "csv/in_the_way.csv"), HasSubstr("points_in_clear_space"));
+  // Nothing of a longer run stays.
+  const std::string again = "track " + run.string() + " --out " + out.string();
+  ASSERT_EQ(Analyze(again + " --points --frames 2").status, 0);
+  EXPECT_TRUE(std::filesystem::exists(out / "points/000001.npy"));
+  EXPECT_FALSE(std::filesystem::exists(out / "points/000002.npy"));
+  ASSERT_EQ(Analyze(again).status, 0);
+  EXPECT_TRUE(std::filesystem::is_empty(out / "points"));
   EXPECT_EQ(Analyze("track " + run.string() + " --points --format text").said,
             "--points: needs --out, the folder to which it writes\n");
 }
