@@ -138,12 +138,14 @@ TEST(Ros2Stream, GivesLateJoinersTheStaticTransforms) {
   EXPECT_EQ(stream.Wait().status, 0);
 }
 
-/// The coarse scenario with brakes of 2 m/s^2 at commands of ROS 2.
-std::string FirmBrakes(const std::filesystem::path& folder) {
+/// The coarse scenario with brakes of 2 m/s^2 at commands of ROS 2, begun at a station.
+std::string FirmBrakes(const std::filesystem::path& folder, int start_s_m = 200) {
   std::string text = ReadFileWhole(CoarseScenario(folder));
-  const std::string begin = "\"version\": 1,";
-  text.replace(text.find(begin), begin.size(),
-               begin + R"("interfaces": {"ros2": {"deceleration_mps2": 2}},)");
+  const auto replace = [&](const std::string& what, const std::string& with) {
+    text.replace(text.find(what), what.size(), with);
+  };
+  replace(R"("version": 1,)", R"("version": 1, "interfaces": {"ros2": {"deceleration_mps2": 2}},)");
+  replace(R"("start_s_m": 200)", R"("start_s_m": )" + std::to_string(start_s_m));
   const std::filesystem::path file = folder / "firm.json";
   WriteFileWhole(file, text);
   return file.string();
@@ -174,7 +176,9 @@ double NearestAhead_m(const ros::PointCloud2& cloud) {
 // The loop of examples/brake_client.py by messages alone: the cloud in, the brake out.
 TEST(Ros2Stream, LetsANodeBrakeForTheWagonAhead) {
   const TemporaryDirectory folder;
-  const std::string scenario = FirmBrakes(folder.path());
+  // Four seconds before the wagon is near: a writer knows of its reader before the reader knows of
+  // it, and what is written between is lost.
+  const std::string scenario = FirmBrakes(folder.path(), 160);
   const std::uint32_t domain = FreeDomain();
   const std::filesystem::path log = folder.path() / "log.jsonl";
   Stream stream(RosArguments(scenario, domain) +
